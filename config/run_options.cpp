@@ -101,7 +101,7 @@ void declare_run_options(base::Options& line, RunOptions& options) {
   line.add("config", "FILE", options.config, "module.xml, or a plant's manifest with --board");
   const base::Option board =
       line.add("--board", "NAME", options.board, "Board of the plant to run as").check(check_node);
-  line.flag("--one-host", options.one_host, "All boards of the plant run on this host: stay on loopback").needs(board);
+  line.flag("--one-host", options.one_host, "All boards of the plant run on this host: use only loopback").needs(board);
   line.add("--deployment", "ID", options.deployment, "Id that indurop status shows (set by the agent)").needs(board);
   line.add("--node", "NAME", options.node, "Name of the node on this host (default: that of the board, else local)")
       .check(check_node);
@@ -114,7 +114,7 @@ void declare_run_options(base::Options& line, RunOptions& options) {
   line.add("--tape", "MB", options.tape_megabytes,
            "Memory for the tape of the last runs, in MB (default: 20); 0: no tape, nothing can be recorded");
   line.add("--replay", "FILE", options.replay.file,
-           "Run this recording of --record again and compare the values that modules write")
+           "Replay this recording of --record and compare the values that modules write")
       .completes(base::Completion::File);
   line.add("--replay-board", "NAME", options.replay.board,
            "With --replay: board to replay, if the recording has several");
@@ -125,8 +125,8 @@ void declare_run_options(base::Options& line, RunOptions& options) {
            "With --replay: write the values that modules write now to this MCAP file")
       .completes(base::Completion::File);
   line.add("--replay-report", "FILE", options.replay.report,
-           "With --replay and one --with: repeat only its module, which goes on with what it wrote itself, and write "
-           "what differs to this JSON file")
+           "With --replay and one --with: repeat only its module, which continues with its own results, and write the "
+           "differences to this JSON file")
       .completes(base::Completion::File);
   line.add("--replay-from", "TICK", options.replay.from_tick, "With --replay: first tick whose runs are compared");
   line.add("--replay-to", "TICK", options.replay.to_tick, "With --replay: last tick whose runs are compared");

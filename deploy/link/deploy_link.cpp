@@ -118,7 +118,8 @@ void add_link_options(base::Options& line, LinkSettings& settings) {
     const auto done = use_keys(settings);
     return done ? std::string() : done.error().text;
   };
-  line.add("--keys", "DIR", take, "Folder of the plant's keys, or of its deployer or viewer, if its boards have keys")
+  line.add("--keys", "DIR", take,
+           "Folder with the keys of the plant, a deployer or a viewer; needed if the boards have keys")
       .completes(base::Completion::Folder);
 }
 

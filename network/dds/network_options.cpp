@@ -19,7 +19,7 @@ void add_network_options(base::Options& line, NetworkSettings& network, const st
       .range(0, 230);
   add_implied(line.add("--interface", "IF", network.interface_name, "Network interface (default: the only one)" + too));
   add_implied(
-      line.flag("--one-host", network.one_host, "All boards of the plant run on this host: stay on loopback" + too));
+      line.flag("--one-host", network.one_host, "All boards of the plant run on this host: use only loopback" + too));
 }
 
 }  // namespace indurop::dds

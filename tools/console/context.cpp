@@ -26,19 +26,19 @@ const char* name_of(Format format) {
 }  // namespace
 
 void add_node_option(base::Options& app, Context& context) {
-  app.add("--node", "NAME", context.node,
-          "Node to talk to (default: $INDUROP_NODE, \"local\", or the only one there is)")
+  app.add("--node", "NAME", context.node, "Node to use (default: $INDUROP_NODE, \"local\", or the only one there is)")
       .completes(base::Completion::Node);
 }
 
 void add_reason_option(base::Options& app, Context& context) {
-  app.add("--reason", "TEXT", context.reason, "Why; it is kept with your name (indurop audit)");
+  app.add("--reason", "TEXT", context.reason, "Reason; recorded with your name (indurop audit)");
 }
 
 void add_remote_options(base::Options& app, Context& context) {
   RemoteOptions& remote = context.remote;
-  app.flag("--remote", remote.wanted, "Boards in the network, not a node of this machine; NAME@BOARD chooses one");
-  dds::add_network_options(app, remote.network, "the variables that boards show", &remote.wanted, "--remote");
+  app.flag("--remote", remote.wanted,
+           "Use boards in the network instead of a node on this machine; NAME@BOARD selects one");
+  dds::add_network_options(app, remote.network, "the variables that boards publish", &remote.wanted, "--remote");
   deploy::add_keys_option(app, remote.network.security, keys::Role::Viewer,
                           "Keys of a tool or of a plant, for boards with <external secure=\"on\">; implies --remote",
                           &remote.keys)
@@ -65,7 +65,7 @@ void add_format_option(base::Options& app, Context& context, std::initializer_li
     }
     return std::string();
   };
-  app.add("-o,--output", "FORM", take, "Form of the output: " + choices).choices(names);
+  app.add("-o,--output", "FORM", take, "Output format: " + choices).choices(names);
 }
 
 base::Option add_time_option(base::Options& app, const std::string& names, std::int64_t& to_ns,

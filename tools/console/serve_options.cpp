@@ -31,47 +31,47 @@ void declare_serve_options(base::Options& app, ServeOptions& options) {
       .range(0, kMostPort);
   app.add("--bind", "ADDRESS", options.bind,
           "Listen on this address (default 127.0.0.1); others need --cert and --key");
-  app.flag("--write", options.write, "Let those with a token or a certificate set, force, start and stop");
+  app.flag("--write", options.write, "Let clients with a token or a certificate set, force, start and stop");
   app.add("--users", "FILE", options.users, "Users, their passwords and roles: a file of indurop users")
       .completes(base::Completion::File);
   app.add("--token-file", "FILE", options.token_file,
-          "Tokens, one 'NAME TOKEN [ROLE]' per line; made with one token if it is not there")
+          "Tokens, one 'NAME TOKEN [ROLE]' per line; created with one token if it does not exist")
       .completes(base::Completion::File);
   app.add("--cert", "FILE", options.cert, "Certificate for TLS (PEM)").completes(base::Completion::File);
   app.add("--key", "FILE", options.key, "Private key of --cert (PEM)").completes(base::Completion::File);
   app.add("--client-ca", "FILE", options.client_ca,
-          "Authority whose certificates count like a token (a plant's ca.pem)")
+          "Authority whose certificates are accepted like a token (a plant's ca.pem)")
       .completes(base::Completion::File);
   app.add("--revoked", "FILE", options.revoked,
           "Revoked certificates of --client-ca (default: revoked.pem in its folder)")
       .completes(base::Completion::File);
   app.add("--host", "NAME", options.hosts, "Another name under which clients may call this server").one_at_a_time();
   app.add("--origin", "URL", options.origins,
-          "A page of another origin may follow variables too, https://app.foxglove.dev")
+          "Let pages of this origin follow variables, e.g. https://app.foxglove.dev")
       .one_at_a_time();
   app.add("--foxglove", "GLOB", options.foxglove, "Show Foxglove these variables or parts of them (default: all)")
       .one_at_a_time()
       .completes(base::Completion::Variable);
   app.add("--foxglove-hz", "RATE", options.foxglove_hz, "Messages per second and variable to Foxglove (default 50)")
       .range(kLeastHz, kMostFoxgloveHz);
-  app.add("--metrics", "GLOB", options.metrics, "Values of these variables or parts of them in /metrics, too")
+  app.add("--metrics", "GLOB", options.metrics, "Include the values of these variables or parts of them in /metrics")
       .one_at_a_time()
       .completes(base::Completion::Variable);
   app.add("--web", "DIR", options.web, "Folder of the page (default: the installed one)")
       .completes(base::Completion::Folder);
-  app.add("--audit", "FILE", options.audit, "Keep who wrote what here (default: in the state folder)")
+  app.add("--audit", "FILE", options.audit, "Write the audit log to this file (default: in the state folder)")
       .completes(base::Completion::File);
-  app.add("--recordings", "DIR", options.recordings, "Show the recordings in this folder in addition to black boxes")
+  app.add("--recordings", "DIR", options.recordings,
+          "Also show the recordings in this folder, in addition to black boxes")
       .completes(base::Completion::Folder);
-  app.add("--clients", "COUNT", options.clients, "At most so many streams at a time (default 64)")
+  app.add("--clients", "COUNT", options.clients, "Maximum number of simultaneous streams (default 64)")
       .range(1, kMostClients);
   app.add("--plc", "FILE[,FILE]...", options.plc,
-          "Show this PLC program with its power flow; it was built with --watch. NAME:NAMESPACE=FILE if they are not "
-          "the "
-          "file's name")
+          "Show this PLC program with its power flow; it must be built with --watch. Use NAME:NAMESPACE=FILE if they "
+          "differ from the file's name")
       .one_at_a_time()
       .completes(base::Completion::File);
-  app.flag("--plant", options.plant, "Show the boards of the network too, by what their agents say");
+  app.flag("--plant", options.plant, "Also show the boards of the network, as their agents report them");
   deploy::add_link_options(app, options.link);
 }
 

@@ -16,15 +16,15 @@ namespace {
 
 constexpr const char* kPurpose = "check, run and inspect InduRoP nodes";
 constexpr const char* kDescription =
-    "A node runs the modules of a module.xml on one board, each with its own period, and holds the variables they\n"
-    "share. indurop checks configurations before they run, starts and stops nodes, and shows and changes what a\n"
-    "running node does. It reads the node's shared memory and never asks the node itself: looking does not disturb.\n"
-    "A TIME is in seconds (2, 0.5) or has a unit: 500ms, 2s, 1min.\n"
+    "A node runs the modules of a module.xml on one board, each with its own period, and holds the variables that\n"
+    "they share. indurop checks configurations before they run, starts and stops nodes, and shows and changes\n"
+    "what a running node does. It reads the node's shared memory directly, so observing a node does not disturb\n"
+    "it. A TIME is in seconds (2, 0.5) or has a unit: 500ms, 2s, 1min.\n"
     "\n"
     "Environment:\n"
-    "  INDUROP_NODE       Node to talk to\n"
+    "  INDUROP_NODE       Node to use\n"
     "  INDUROP_STATE_DIR  Folder of retained values; default /var/lib/indurop for root, else ~/.local/state/indurop\n"
-    "  NO_COLOR           No colour, whatever the terminal can do\n"
+    "  NO_COLOR           If set, the output has no color\n"
     "Files:\n"
     "  /dev/shm/indurop.NAME  Shared variables of node NAME; with .run its statistics, with .lock its name's lock\n";
 
@@ -167,8 +167,8 @@ base::CommandText program_text() {
     names.emplace_back(verb.name);
   }
   std::string word;
-  base::Options help("help", "Print the verbs, or the options of one");
-  help.add("verb", "VERB", word, "Verb to be explained").choices(names);
+  base::Options help("help", "List the verbs, or explain one of them");
+  help.add("verb", "VERB", word, "Verb to explain").choices(names);
   program.commands.push_back(help.text());
   program.commands.back().group = "Help";
   return program;

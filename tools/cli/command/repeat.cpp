@@ -16,8 +16,8 @@ constexpr std::chrono::milliseconds kShortest{10};
 }  // namespace
 
 void add_repeat_options(base::Options& app, Repeat& repeat) {
-  app.flag("-w,--watch", repeat.on, "Again every second until Ctrl-C");
-  app.flag("--once", repeat.once, "One round (the default without -w)");
+  app.flag("-w,--watch", repeat.on, "Repeat every second until Ctrl-C");
+  app.flag("--once", repeat.once, "Print once (the default without -w)");
   app.add("-n,--count", "COUNT", repeat.count, "COUNT rounds");
   add_time_option(app, "--interval", repeat.interval_ns, "With -w: time between rounds, at least 10 ms (default 1 s)")
       .check([](const std::string& text) {

@@ -121,13 +121,14 @@ int write(Context& context, const ImportRequest& request, const io::esi::EsiFile
 }  // namespace
 
 void add_import_options(base::Options& verb, ImportRequest& request) {
-  verb.add("files", "FILE", request.files, "Descriptions by the makers (ESI, XML)")
+  verb.add("files", "FILE", request.files, "The manufacturers' descriptions (ESI, XML)")
       .required()
       .completes(base::Completion::File);
   verb.add("--write", "FILE", request.to, "Write or extend this ioconfig.xml").completes(base::Completion::File);
-  verb.add("--device", "TYPE", request.devices, "Add a device of this type; once for each, in the order of the cable")
+  verb.add("--device", "TYPE", request.devices,
+           "Add a device of this type; repeat it for each device, in the order of the cable")
       .one_at_a_time();
-  verb.add("--mode", "NAME", request.mode, "How devices use their clocks (OpMode; default: their first)");
+  verb.add("--mode", "NAME", request.mode, "How devices use their clocks (OpMode; default: the first that they offer)");
   verb.add(
       "--cycle", "TIME",
       [&request](const std::string& text) {
@@ -135,9 +136,9 @@ void add_import_options(base::Options& verb, ImportRequest& request) {
         request.cycle = cycle.value_or(request.cycle);
         return cycle ? std::string() : base::in_quotes(text) + " is no time; write 1ms";
       },
-      "Of the bus (default: 1ms)");
-  verb.add("--address", "INTERFACE", request.interface, "Where new devices are (default: eth1)");
-  verb.add("--namespace", "NAME", request.space, "Of the variables of new devices (default: IO)");
+      "Cycle time of the bus (default: 1ms)");
+  verb.add("--address", "INTERFACE", request.interface, "Network interface of new devices (default: eth1)");
+  verb.add("--namespace", "NAME", request.space, "Namespace of the variables of new devices (default: IO)");
 }
 
 int import_esi(Context& context, const ImportRequest& request) {

@@ -58,15 +58,16 @@ Result<BoardRun, Failure> kept_in(const std::string& file) {
 }  // namespace
 
 void add_board_options(base::Options& app, BoardChoice& choice, bool link) {
-  app.flag("--remote", choice.remote, "A board in the network, by its agent, not a node of this machine");
-  app.add("--board", "NAME", choice.board, "Which board (default: the only one there is); implies --remote");
+  app.flag("--remote", choice.remote,
+           "Use a board in the network, through its agent, instead of a node on this machine");
+  app.add("--board", "NAME", choice.board, "Board to use (default: the only one); implies --remote");
   if (link) {
     deploy::add_link_options(app, choice.link);
   }
 }
 
 void add_kept_option(base::Options& app, BoardChoice& choice) {
-  app.add("--from", "FILE", choice.file, "What an agent has kept of a node that died (STATE/BOARD/blackbox)");
+  app.add("--from", "FILE", choice.file, "Show what an agent kept of a node that died (STATE/BOARD/blackbox)");
 }
 
 Result<const BoardRoster::Entry*, Failure> find_board(Context& context, BoardChoice& choice) {

@@ -37,7 +37,8 @@ int command_local(Context& context, ModuleCommand command, const std::string& mo
 }  // namespace
 
 void add_command_options(base::Options& app, Context& context, CommandOptions& options) {
-  app.add("targets", "TARGET", options.targets, "MODULE of the node here; MODULE@BOARD or @BOARD of a plant, anywhere")
+  app.add("targets", "TARGET", options.targets,
+          "MODULE of a node on this machine; MODULE@BOARD or @BOARD of a plant, from any machine")
       .completes(base::Completion::Module);
   add_reason_option(app, context);
   add_node_option(app, context);

@@ -254,19 +254,19 @@ void add_plc_build(base::Options& app, const std::shared_ptr<Action>& chosen) {
     add_plc_sources(made, request->compile);
     return &made;
   };
-  base::Options* build = verb("build", "Make modules (.so) of a program, and its shared variables (.glb)", &build_plc);
+  base::Options* build = verb("build", "Compile a program into modules (.so) and shared variables (.glb)", &build_plc);
   build->add("-o,--output", "DIR", request->folder, "Where to write them (default: here)");
   build->flag("--watch", request->compile.watch,
               "Let `indurop plc watch` see its variables and the power in its networks");
   build->flag("--debug", request->compile.debug,
-              "Let `indurop plc debug` stop it at any line; only for simulations, it is slow");
+              "Let `indurop plc debug` stop it at any line; slow, only for simulations");
   build->flag("--coverage", request->compile.coverage,
               "Count how often its statements run, for `indurop plc coverage`; the counters go to the folder that "
               "INDUROP_PLC_COVERAGE names");
   build->flag("--only-sources", request->only_sources, "Write .glb and .cpp, do not compile them");
-  verb("check", "Say what is wrong with a program", &check_plc);
-  base::Options* lib = verb("lib", "Make a library (.plclib) of files without a PROGRAM, for --lib", &build_library);
-  lib->add("--version", "VERSION", request->version, "Its version, 1.2.0").required();
+  verb("check", "Report the errors in a program", &check_plc);
+  base::Options* lib = verb("lib", "Create a library (.plclib) for --lib from files without a PROGRAM", &build_library);
+  lib->add("--version", "VERSION", request->version, "Version of the library, e.g. 1.2.0").required();
   lib->add("-o,--output", "DIR", request->folder, "Where to write it (default: here)");
 }
 

@@ -289,11 +289,12 @@ int show_coverage(Context& context, const std::filesystem::path& folder, const s
 void add_plc_coverage(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen) {
   auto request = std::make_shared<PlcCoverageRequest>();
   base::Options& made =
-      app.command("coverage", "Say which lines, rungs and branches were tried by tests", [request, chosen] {
+      app.command("coverage", "Show which lines, rungs and branches the tests covered", [request, chosen] {
         *chosen = [request](Context& c) { return show_coverage(c, request->folder, request->lcov); };
       });
-  made.add("folder", "FOLDER", request->folder, "What INDUROP_PLC_COVERAGE named while the tests ran").required();
-  made.add("--lcov", "FILE.info", request->lcov, "Write it for lcov, genhtml and others, too")
+  made.add("folder", "FOLDER", request->folder, "The folder that INDUROP_PLC_COVERAGE named while the tests ran")
+      .required();
+  made.add("--lcov", "FILE.info", request->lcov, "Also write it for lcov, genhtml and others")
       .completes(base::Completion::File);
   add_format_option(made, context, {Format::Table, Format::Json, Format::Csv});
 }

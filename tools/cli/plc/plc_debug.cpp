@@ -91,7 +91,7 @@ void add_plc_debug(base::Options& app, const std::shared_ptr<Action>& chosen) {
   add_plc_sources(made, request->compile);
   made.add("--run", "FILE", request->config,
            "The configuration to run, with modules built with --debug (default: the program alone)");
-  made.add("--until", "TIME", request->until, "End the simulation then");
+  made.add("--until", "TIME", request->until, "End the simulation at this time");
 }
 
 }  // namespace indurop::tools

@@ -73,7 +73,7 @@ int print(Context& context, const PlcPrintRequest& request) {
 void add_plc_print(base::Options& app, const std::shared_ptr<Action>& chosen) {
   auto request = std::make_shared<PlcPrintRequest>();
   base::Options& made =
-      app.command("print", "Print a program, its networks as text or as a picture",
+      app.command("print", "Print a program, with its networks as text or as a picture",
                   [request, chosen] { *chosen = [request](Context& c) { return print(c, *request); }; });
   made.add("files", "FILE", request->files,
            "The program: .st, PLCopen .xml, OpenPLC's project.json, TwinCAT .plcproj or .TcPOU files")

@@ -18,7 +18,8 @@ void add_plc_sources(base::Options& app, plc::CompileOptions& request) {
           "The program: .st, PLCopen .xml, OpenPLC's project.json, TwinCAT .plcproj or .TcPOU files")
       .required();
   app.add("--lib", "FILE", request.libraries,
-          "A library the program uses, motors-1.2.0.plclib; FILE@1.2 asks for at least this version (repeatable)")
+          "A library that the program uses, e.g. motors-1.2.0.plclib; FILE@1.2 requires at least this version "
+          "(repeatable)")
       .one_at_a_time();
   app.add("--glb", "FILE", request.glb_files, "A .glb file whose shared variables the program uses (repeatable)")
       .one_at_a_time();
@@ -29,9 +30,9 @@ void add_plc_sources(base::Options& app, plc::CompileOptions& request) {
     request.infinite_division = text == "infinity";
     return std::string();
   };
-  app.add("--real-division", "RESULT", divide, "What a REAL divided by zero is: fault or infinity (default: fault)")
+  app.add("--real-division", "RESULT", divide, "Result of dividing a REAL by zero: fault or infinity (default: fault)")
       .choices({"fault", "infinity"});
-  app.flag("--show-locals", request.show_locals, "Make the variables of programs shared variables too");
+  app.flag("--show-locals", request.show_locals, "Also make the variables of programs shared variables");
 }
 
 }  // namespace indurop::tools

@@ -142,7 +142,7 @@ void add_plc_watch(base::Options& app, Context& context, const std::shared_ptr<A
                   [request, chosen] { *chosen = [request](Context& c) { return watch(c, *request); }; });
   add_plc_sources(made, request->compile);
   made.add("--pou", "NAME", request->choice.pou, "This program or function block only");
-  made.add("--instance", "NAME", request->choice.instance, "This instance of it only: main.motor");
+  made.add("--instance", "NAME", request->choice.instance, "Only this instance of it, e.g. main.motor");
   made.add("--rung", "N", request->choice.rung, "This rung or network only").range(1, kMostRungs);
   constexpr double kMostHz = 100;
   constexpr double kLeastHz = 0.001;

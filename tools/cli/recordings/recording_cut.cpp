@@ -45,12 +45,14 @@ void add_recording_cut(base::Options& app, const std::shared_ptr<Action>& chosen
     *chosen = [options](Context& c) { return cut(c, *options); };
   });
   verb.add("file", "FILE.mcap", options->file, "The recording").required().completes(base::Completion::File);
-  verb.add("-o,--file", "FILE.mcap", options->to, "The new file; it must not be there yet").required();
-  add_time_option(verb, "--from", options->from_ns, "First time, since the beginning of the recording (default: 0)");
-  add_time_option(verb, "--to", options->to_ns, "Last time, since its beginning (default: its end)");
+  verb.add("-o,--file", "FILE.mcap", options->to, "New file; it must not exist yet").required();
+  add_time_option(verb, "--from", options->from_ns,
+                  "Beginning of the part, from the beginning of the recording (default: 0)");
+  add_time_option(verb, "--to", options->to_ns,
+                  "End of the part, from the beginning of the recording (default: its end)");
   verb.details(
-      "Takes the runs that ended between these times, each with all it read and wrote, and before them the\n"
-      "values of that time, so that the part can be drawn and replayed on its own.\n");
+      "Copies the runs that ended between these times, each with all that it read and wrote, and the values that\n"
+      "were current before them, so that the part can be drawn and replayed on its own.\n");
 }
 
 }  // namespace indurop::tools

@@ -55,14 +55,14 @@ void add_recording_export(base::Options& app, const std::shared_ptr<Action>& cho
                   [options, chosen] { *chosen = [options](Context& c) { return export_recording(c, *options); }; });
   verb.add("file", "FILE.mcap", options->file, "The recording").required().completes(base::Completion::File);
   verb.add("names", "GLOB", options->names, "With --csv: variables, or globs; none: all");
-  verb.add("--csv", "FILE", options->csv, "Write values: a row for each time at which one changed");
+  verb.add("--csv", "FILE", options->csv, "Write values, with a row for each time at which one changed");
   verb.add("--trace", "FILE", options->trace, "Write when each module ran, for https://ui.perfetto.dev");
   add_time_option(verb, "--every", options->every_ns,
                   "With --csv: interval of the rows (default: a row whenever a value changed)");
   verb.flag("--units", options->units, "With --csv: headings as \"NAME [unit]\", for chart");
   verb.details(
-      "Each number of a variable is a column, as joints[1].y; a value stands until it changes. time_ns is wall-clock\n"
-      "time, of simulations virtual time. indurop chart draws such a file. Enumerators are numbers.\n");
+      "Each number of a variable is a column, such as joints[1].y; a value is valid until it changes. time_ns is\n"
+      "wall-clock time, or virtual time for simulations. indurop chart draws such a file. Enumerators are numbers.\n");
 }
 
 }  // namespace indurop::tools

@@ -129,15 +129,15 @@ int show_recording(Context& context, const std::filesystem::path& file) {
 
 void add_recording_info(base::Options& app, Context& context, const std::shared_ptr<Action>& chosen) {
   auto file = std::make_shared<std::filesystem::path>();
-  base::Options& verb = app.command("info", "Show what a recording holds, and what is missing in it", [file, chosen] {
+  base::Options& verb = app.command("info", "Show what a recording contains, and what is missing", [file, chosen] {
     *chosen = [file](Context& c) { return show_recording(c, *file); };
   });
   verb.add("file", "FILE.mcap", *file, "The recording").required().completes(base::Completion::File);
   add_format_option(verb, context, {Format::Table, Format::Json, Format::Csv});
   verb.details(
-      "RUNS BEFORE were not recorded; LOST ones were overwritten before they were read. DROPPED are the lost runs of "
-      "the\n"
-      "modules that tell a variable: so often it may have changed unseen. What is damaged is passed over and named.\n");
+      "RUNS BEFORE are runs before the recording began. LOST are runs that were overwritten before they were read.\n"
+      "DROPPED are the lost runs of the modules that write a variable: so many changes of it may be missing.\n"
+      "Damaged parts are skipped and named.\n");
 }
 
 }  // namespace indurop::tools

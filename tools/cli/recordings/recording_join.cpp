@@ -37,17 +37,17 @@ int join(Context& context, const RecordingJoinOptions& options) {
 void add_recording_join(base::Options& app, const std::shared_ptr<Action>& chosen) {
   auto options = std::make_shared<RecordingJoinOptions>();
   base::Options& join_command =
-      app.command("join", "Join the recordings of several boards to one on common time",
+      app.command("join", "Join the recordings of several boards into one with a common time",
                   [options, chosen] { *chosen = [options](Context& c) { return join(c, *options); }; });
   join_command.add("files", "FILE.mcap", options->files, "The recordings, one of each board or node")
       .required()
       .completes(base::Completion::File);
-  join_command.add("-o,--file", "FILE.mcap", options->to, "The file; it must not be there yet").required();
+  join_command.add("-o,--file", "FILE.mcap", options->to, "File to write; it must not exist yet").required();
   join_command.details(
-      "Topics become BOARD/TOPIC (NODE/TOPIC of a node of its own), so that the signals of all boards lie over each\n"
-      "other in Foxglove and PlotJuggler. Times are those of the recordings: clocks of boards that are not kept by "
-      "PTP\n"
-      "or NTP differ; boards of a simulation have one. indurop replay --board replays one of them.\n");
+      "Topics become BOARD/TOPIC (NODE/TOPIC for a node that is not a board), so that the signals of all boards can\n"
+      "be overlaid in Foxglove and PlotJuggler. Times are those of the recordings: the clocks of boards differ\n"
+      "unless PTP or NTP synchronizes them; boards of a simulation have a common clock. indurop replay --board\n"
+      "replays one of them.\n");
 }
 
 }  // namespace indurop::tools

@@ -200,17 +200,18 @@ void add_recording_play(base::Options& app, Context& context, const std::shared_
   constexpr double kMaxSpeed = 1000;
   auto options = std::make_shared<RecordingPlayOptions>();
   base::Options& verb =
-      app.command("play", "Write recorded values into a running node at their times",
+      app.command("play", "Write recorded values into a running node at their recorded times",
                   [options, chosen] { *chosen = [options](Context& c) { return play(c, *options); }; });
   verb.add("file", "FILE.mcap", options->file, "The recording").required().completes(base::Completion::File);
   verb.add("names", "GLOB", options->names, "Variables, or globs; none: those that no module of the node writes");
   verb.add("--board", "NAME", options->board, "Board whose values are written, if the recording has several");
-  verb.add("--speed", "N", options->speed, "Times the speed of the recording (default: 1)").range(kMinSpeed, kMaxSpeed);
+  verb.add("--speed", "N", options->speed, "Speed as a multiple of the recorded speed (default: 1)")
+      .range(kMinSpeed, kMaxSpeed);
   add_node_option(verb, context);
   verb.details(
-      "Feeds recorded inputs to the modules of today: variables that no module of the node writes\n"
-      "get their recorded values at their times. A module that writes a named variable overwrites it in its next run.\n"
-      "To repeat runs exactly, see indurop replay.\n");
+      "Feeds recorded inputs to the current modules: variables that no module of the node writes get their recorded\n"
+      "values at the recorded times. A module that writes a named variable overwrites it in its next run. To repeat\n"
+      "runs exactly, see indurop replay.\n");
 }
 
 }  // namespace indurop::tools

@@ -364,9 +364,8 @@ Action declare_age(base::Options& app, Context& context) {
       .required()
       .completes(base::Completion::Variable);
   add_time_option(app, "--duration", options->duration_ns,
-                  "Follow from now on for this duration (default: what is on the tape, two seconds or more)");
-  app.add("--from", "FILE.mcap", options->files,
-          "Follow in a recording; of a plant, in one of each board or in a joined one")
+                  "Measure from now on for this time (default: use what is on the tape, two seconds or more)");
+  app.add("--from", "FILE.mcap", options->files, "Use a recording; for a plant, one of each board or a joined one")
       .completes(base::Completion::File);
   app.add("--config", "FILE", options->config, "The configuration (default: what the node or the recording names)")
       .completes(base::Completion::File);
@@ -382,11 +381,10 @@ Action declare_age(base::Options& app, Context& context) {
 
 const Verb kAgeVerb{
     "age", "Timing", "Measure end-to-end data age between two variables, and compare it with the prediction",
-    "Follows values from run to run, over modules and boards: from the release of the run that wrote FROM to the "
-    "release\n"
-    "of the run that wrote TO. BEST and WORST are what indurop check --chain predicts with the times the modules took\n"
-    "meanwhile, the rest is measured. Boards that do not run on this machine are followed in recordings.\n"
-    "Exit code 0 if all is within the prediction, 4 if not.\n"
+    "Traces values from run to run, over modules and boards: from the release of the run that wrote FROM to the\n"
+    "release of the run that wrote TO. BEST and WORST are what indurop check --chain predicts with the execution\n"
+    "times measured in that time; the rest is measured. For boards that do not run on this machine, use\n"
+    "recordings. Exit code 0 if everything is within the prediction, 4 if not.\n"
     "Examples:\n"
     "  indurop age cell::encoder cell::torque\n"
     "  indurop age cell::encoder cell::torque --duration 10s\n"

@@ -177,13 +177,13 @@ Action declare_alarms(base::Options& app, Context& context) {
     });
     made.add("names", "ALARM", options->names, "Alarms, the variables they evaluate, or globs");
     made.flag("--all", options->all, "All alarms");
-    made.add("--reason", "TEXT", options->reason, "Why, for the history");
+    made.add("--reason", "TEXT", options->reason, "Reason, for the history");
     return made;
   };
   base::Options& list = verb("list", "Show the alarms that are not normal", &show_list);
   list.flag("--all", options->all, "Include normal alarms");
-  base::Options& history = verb("history", "Show what happened", &show_history);
-  history.add("-n,--count", "COUNT", options->count, "The newest COUNT events (default 20)");
+  base::Options& history = verb("history", "Show the history of alarms", &show_history);
+  history.add("-n,--count", "COUNT", options->count, "Show the newest COUNT events (default 20)");
   ordering("ack", "Acknowledge alarms", alarms::AlarmEvent::Acknowledged);
   base::Options& shelve = ordering("shelve", "Do not raise alarms for a while", alarms::AlarmEvent::Shelved);
   add_time_option(shelve, "--for", options->for_ns, "Shelve for this duration (default 1h)");
@@ -197,12 +197,12 @@ Action declare_alarms(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kAlarmsVerb{
-    "alarms", "A running node", "Show alarms, acknowledge and shelve them, and list what happened",
+    "alarms", "A running node", "Show, acknowledge and shelve alarms, and show their history",
     "Alarms are declared in .glb files: bool open @alarm(\"the door is open\", high, 500ms). A module that does not\n"
-    "do its work for two seconds raises an alarm of its own: module Robot. One process on the node's machine\n"
-    "evaluates the conditions: its agent, indurop serve, or indurop alarms watch. The history is kept in the state\n"
-    "folder of the node, over restarts. An alarm that ended before it was acknowledged stays in the list as\n"
-    "'returned'. A shelved one is not raised until its time is over or it is unshelved.\n"
+    "do its work for two seconds raises an alarm without a declaration: module Robot. One process on the node's\n"
+    "machine evaluates the conditions: its agent, indurop serve, or indurop alarms watch. The history is in the\n"
+    "state folder of the node and survives restarts. An alarm that ended before it was acknowledged stays in the\n"
+    "list as 'returned'. A shelved alarm is not raised until its time is over or it is unshelved.\n"
     "Examples:\n"
     "  indurop alarms\n"
     "  indurop alarms ack press::door_open --reason 'closed it'\n"

@@ -43,7 +43,7 @@ int show_audit(Context& context, const AuditOptions& options) {
 
 Action declare_audit(base::Options& app, Context& context) {
   auto options = std::make_shared<AuditOptions>();
-  app.add("-n,--count", "COUNT", options->count, "The newest COUNT entries (default 40)");
+  app.add("-n,--count", "COUNT", options->count, "Show the newest COUNT entries (default 40)");
   app.add("--file", "FILE", options->file, "The file that indurop serve --audit names (default: in the state folder)");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return show_audit(c, *options); };
@@ -52,9 +52,9 @@ Action declare_audit(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kAuditVerb{
-    "audit", "A running node", "Show who wrote what, from where and why",
-    "Verbs that write (set, force, lock, recipe load, stop ...) and indurop serve note it: user or name of the\n"
-    "token, host, board, values and --reason.\n"
+    "audit", "A running node", "Show who changed what, from where and why",
+    "Verbs that write (set, force, lock, recipe load, stop ...) and indurop serve record each action: user or\n"
+    "name of the token, host, board, values and --reason.\n"
     "Examples:\n"
     "  indurop audit\n"
     "  indurop audit -n 100 -o csv\n",

@@ -337,10 +337,10 @@ Action declare_blackbox(base::Options& app, Context& context) {
     made.add("--at", "BOX", options->at, "The box, as listed, or its time (default: the newest)");
     return made;
   };
-  verb("list", "Show what was kept, the newest first", [](Context& c, BlackboxOptions& o) { return list(c, o); });
-  of_a_box("show", "Describe the newest box, as indurop recording info", &show_box);
+  verb("list", "List the black boxes, the newest first", [](Context& c, BlackboxOptions& o) { return list(c, o); });
+  of_a_box("show", "Describe the newest box, as indurop recording info does", &show_box);
   base::Options& made = of_a_box("export", "Write the newest box as CSV or as a trace", &export_box);
-  made.add("--csv", "FILE", options->out.csv, "Write the values, as indurop recording export");
+  made.add("--csv", "FILE", options->out.csv, "Write the values, as indurop recording export does");
   made.add("--trace", "FILE", options->out.trace, "Write when each module ran, for https://ui.perfetto.dev");
   base::Options& again = of_a_box("replay", "Run the newest box again and compare the results", &replay_box);
   again.add("--with", "FILE.so", options->with, "Use this file for the module of its name")
@@ -350,10 +350,11 @@ Action declare_blackbox(base::Options& app, Context& context) {
   keeping.add("reason", "TEXT", options->what, "Reason, for the list");
   keeping.add("--when", "NAME", options->when, "Wait until this local variable becomes non-zero")
       .completes(base::Completion::Variable);
-  base::Options& fetching = of_a_box("fetch", "Write the boxes of one moment of all boards into one file", &fetch);
+  base::Options& fetching =
+      of_a_box("fetch", "Write the boxes that all boards kept at one moment into one file", &fetch);
   fetching.add("file", "FILE.mcap", options->what, "The file to write").required().completes(base::Completion::File);
   app.flag("--remote", options->remote,
-           "All boards of the network, by their agents, instead of the nodes of this machine");
+           "Use all boards of the network, through their agents, instead of the nodes of this machine");
   app.add("--board", "NAME", options->board, "Only this board; implies --remote");
   deploy::add_link_options(app, options->link);
   add_node_option(app, context);
@@ -365,11 +366,11 @@ Action declare_blackbox(base::Options& app, Context& context) {
 
 const Verb kBlackboxVerb{
     "blackbox", "Timing", "List black boxes of nodes, save one now, or fetch those of all boards",
-    "When a module faults, has many overruns, or a node starts again that crashed, the last seconds of its tape are\n"
-    "kept as a recording: what every run saw and wrote; agents have it kept on all boards of the plant. The newest\n"
-    "ten of each node stay. They are read by `indurop explain --from`, `replay`, `recording`, Foxglove and\n"
-    "PlotJuggler, too. `fetch` joins what the boards kept within ten seconds of one moment into one file on common\n"
-    "time; exit code 1 if a board of the plant has none.\n"
+    "When a module faults or has many overruns, or when a node starts after a crash, the last seconds of its tape\n"
+    "are kept as a recording of what every run read and wrote; agents make all boards of the plant keep theirs.\n"
+    "The newest ten of each node are kept. `indurop explain --from`, `replay`, `recording`, Foxglove and\n"
+    "PlotJuggler can read them, too. `fetch` joins what the boards kept within ten seconds of one moment into one\n"
+    "file with a common time; the exit code is 1 if a board of the plant has none.\n"
     "Examples:\n"
     "  indurop blackbox\n"
     "  indurop blackbox show\n"

@@ -60,7 +60,8 @@ Action declare_boards(base::Options& app, Context& context) {
 
 const Verb kBoardsVerb{
     "boards", "Plants", "Show all boards of the network and what they run",
-    "HEARD is the time since the last report of the board; agents report twice a second. Exit code 6 if none came.\n"
+    "HEARD is the time since the last report of the board; agents report twice a second. Exit code 6 if no board\n"
+    "reports.\n"
     "Examples:\n"
     "  indurop boards\n"
     "  indurop boards -w\n"

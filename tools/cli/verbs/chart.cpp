@@ -103,7 +103,7 @@ Action declare_chart(base::Options& app, Context& context) {
   app.add("file", "FILE.csv", options->file, "Recording; - reads it from stdin").required();
   app.add("--svg", "FILE", options->svg_file, "Write a picture to FILE");
   app.add("--title", "TEXT", options->title, "Heading of the picture");
-  app.add("--way", "NAME", options->way, "Draw an array x, y, z as a way, from above and from the side");
+  app.add("--way", "NAME", options->way, "Draw an array of x, y, z as a path, from above and from the side");
   app.add("--name", "OLD=NEW", options->names, "Show a column, or NAME[2] of an array, by another name (repeat it)");
   app.add("--words", "NAME=0 off, 1 on", options->words, "Show words instead of a column's numbers (repeat it)");
   add_format_option(app, context, {Format::Table, Format::Svg});
@@ -114,8 +114,8 @@ Action declare_chart(base::Options& app, Context& context) {
 
 const Verb kChartVerb{
     "chart", "Variables", "Draw recorded values over time, in the terminal or as SVG",
-    "Reads what `indurop watch -o csv` wrote. Numbers are drawn as lines, the elements of an array together,\n"
-    "what has few values (bool, enumerators, small counters) as a lane of bars.\n"
+    "Reads what `indurop watch -o csv` wrote. Numbers are drawn as lines, with the elements of an array together.\n"
+    "Variables that have few values (bool, enumerators, small counters) are drawn as a lane of bars.\n"
     "Examples:\n"
     "  indurop watch 'joints' motor_on state --hz 50 --timeout 20s -o csv > run.csv\n"
     "  indurop chart run.csv\n"

@@ -116,8 +116,9 @@ Action declare_check(base::Options& app, Context& context) {
   auto options = std::make_shared<CheckOptions>();
   app.add("file", "FILE", options->file,
           "module.xml, or the manifest of a plant (default: module.xml, else plant.xml)");
-  app.flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
-  app.flag("--sim", options->simulation, "Also note what a simulation (run --sim) cannot repeat");
+  app.flag("--adjust", options->adjust,
+           "Round periods if the basic period would be too short, instead of reporting an error");
+  app.flag("--sim", options->simulation, "Also report what a simulation (run --sim) cannot repeat");
   app.add("--chain", "NAME", options->chain,
           "Show the worst-case age of data from the first variable to the second, over modules and boards")
       .completes(base::Completion::Variable);
@@ -132,13 +133,14 @@ Action declare_check(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kCheckVerb{
-    "check", "Before it runs", "Show what is wrong with a configuration, and who reads and writes what",
+    "check", "Before it runs", "Check a configuration, and show which modules read and write each variable",
     "Prints every error, warning and note as file:line:col, the shared variables with the modules that write and\n"
-    "read them, and one summary line. With -q only diagnostics and summary; -o csv prints the variables.\n"
-    "For a plant it shows the boards and the variables that travel between them; -o csv prints these variables.\n"
-    "Modules that do not declare what they keep from run to run (INDUROP_STATE) are named and counted.\n"
-    "If modules say how long they execute (<wcet>, or --times), it is an error if one can miss its deadline.\n"
-    "Exit code 0 if there are no errors (warnings allowed), 4 if there are.\n"
+    "read them, and one summary line. With -q it prints only diagnostics and the summary; -o csv prints the\n"
+    "variables. For a plant it shows the boards and the variables that travel between them; -o csv prints these\n"
+    "variables. Modules that do not declare what they keep from run to run (INDUROP_STATE) are named and counted.\n"
+    "If the execution times of modules are known (<wcet>, or --times), a deadline that a module can miss is an\n"
+    "error.\n"
+    "Exit code 0 if there are no errors (warnings are allowed), 4 if there are errors.\n"
     "Examples:\n"
     "  indurop check\n"
     "  indurop check plant.xml\n"

@@ -105,8 +105,8 @@ Action declare_clean(base::Options& app, Context& context) {
 
 const Verb kCleanVerb{
     "clean", "Start and stop", "Remove the shared memory of nodes that do not run",
-    "The values such nodes left behind are gone afterwards, except retained ones, which are in files.\n"
-    "A running node is never touched.\n"
+    "Deletes the values that such nodes left behind, except retained values, which are in files. A running node\n"
+    "is never touched.\n"
     "Examples:\n"
     "  indurop clean --node local\n"
     "  indurop clean --all\n",

@@ -192,8 +192,9 @@ Action declare_demo(base::Options& app, Context& /*context*/) {
 
 const Verb kDemoVerb{
     "demo", "Before it runs", "Run a built example: a robot cell and its page, the chapter's modules, a plant",
-    "Needs no compiler and no rights. It runs in a temporary copy of the example, which Ctrl-C removes.\n"
-    "Without EXAMPLE the robot cell works until Ctrl-C, and the address of its page is printed.\n"
+    "Needs no compiler and no special privileges. The demo runs in a temporary copy of the example, which is\n"
+    "removed on Ctrl-C. Without EXAMPLE, the robot cell runs until Ctrl-C, and the address of its page is\n"
+    "printed.\n"
     "Examples:\n"
     "  indurop demo\n"
     "  indurop demo two_boards\n"

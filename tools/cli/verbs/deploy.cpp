@@ -199,16 +199,17 @@ Action declare_deploy(base::Options& app, Context& context) {
   app.add("file", "FILE", options->file, "Manifest of the plant, or a bundle of indurop pack (default: plant.xml)");
   deploy::add_link_options(app, options->link);
   add_time_option(app, "--timeout", options->timeout_ns,
-                  "How long to wait for boards to be heard or to answer (default: 5s)");
+                  "How long to wait for boards to report or answer (default: 5s)");
   add_time_option(app, "--health", options->health_ns,
                   "How long to monitor the new deployment before it is committed (default: 3s)");
   add_comment_option(app, options->comment);
   add_also_option(app, options->also);
   app.flag("--allow-missing", options->allow_missing,
-           "Deploy to the boards that are heard; the others take it over when they appear");
-  app.flag("--older", options->older, "Deploy a bundle although boards have replaced it by what they run now");
-  app.flag("--restart", options->restart, "Restart all nodes, also where modules could be exchanged while they run");
-  app.flag("--dry-run", options->dry_run, "Send what the boards lack and show what would be done; change nothing");
+           "Deploy to the boards that report; the others take it over when they appear");
+  app.flag("--older", options->older,
+           "Deploy a bundle even if the boards have already replaced it with a newer deployment");
+  app.flag("--restart", options->restart, "Restart all nodes, even if modules could be exchanged while they run");
+  app.flag("--dry-run", options->dry_run, "Send missing files and show what would be done; change nothing");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return deploy_plant(c, *options); };
 }
@@ -216,15 +217,15 @@ Action declare_deploy(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kDeployVerb{
-    "deploy", "Plants", "Deploy a plant on all its boards, or change nothing",
-    "Checks the plant, sends what the boards lack, lets every board check its own copy, switches all of them at\n"
-    "one instant, monitors them for a while and commits. If anything fails on any board, all of them roll back.\n"
-    "If only files of thread modules differ, these are exchanged in one tick, with what they keep, and everything\n"
-    "else goes on; else the nodes are restarted. What is done to each module is shown before.\n"
-    "Every board needs a running agent: indurop-agent --board NAME.\n"
+    "deploy", "Plants", "Deploy a plant to all of its boards, or change nothing",
+    "Checks the plant, sends missing files to the boards, lets every board check its own copy, switches all of\n"
+    "them at one instant, monitors them for a while and commits. If anything fails on any board, all of them roll\n"
+    "back. If only files of thread modules differ, these are exchanged in one tick, with what they keep, and\n"
+    "everything else continues; otherwise the nodes are restarted. What will be done to each module is shown\n"
+    "first. Every board needs a running agent: indurop-agent --board NAME.\n"
     "Exit codes: 0 committed, 1 not deployed (another deployment is under way, a board could not fetch it, the\n"
-    "bundle is older than what runs), 4 the check found errors, 5 rolled back, 6 boards are missing. Keys are those\n"
-    "of --keys, else <security> of the manifest.\n"
+    "bundle is older than what runs), 4 the check found errors, 5 rolled back, 6 boards are missing. The keys are\n"
+    "those of --keys, else of <security> in the manifest.\n"
     "Examples:\n"
     "  indurop deploy plant.xml\n"
     "  indurop deploy plant.xml --dry-run\n"

@@ -136,10 +136,10 @@ Action declare_diff(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kDiffVerb{
-    "diff", "Plants", "Compare what a plant runs with what is here",
-    "Compares the modules and files of the plant's deployment, and its sources if they were deployed, with those of\n"
-    "the manifest, byte by byte (SHA-256).\n"
-    "Exit codes: 0 equal, 1 different, 4 the check of the manifest found errors, 6 no board of the plant is heard.\n"
+    "diff", "Plants", "Compare what a plant runs with the local files",
+    "Compares the modules and files of the plant's deployment, and its sources if they were deployed, with those\n"
+    "of the manifest, byte for byte (SHA-256).\n"
+    "Exit codes: 0 equal, 1 different, 4 the check of the manifest found errors, 6 no board of the plant reports.\n"
     "Examples:\n"
     "  indurop diff\n"
     "  indurop diff plant.xml -o json\n",

@@ -234,14 +234,15 @@ Action declare_doctor(base::Options& app, Context& context) {
   };
   const auto with_test = [&](base::Options& made) {
     add_time_option(made, "--duration", options->test.duration_ns, "Length of the wake-up test (default 2 s)");
-    made.flag("--no-test", options->no_test, "Without the wake-up test");
+    made.flag("--no-test", options->no_test, "Skip the wake-up test");
   };
   base::Options& checking = verb("check", "Check the machine and measure how late threads are woken", &check);
   with_test(checking);
   checking.add("--core", "N", options->core, "Core that interrupts must not reach (default: those of running nodes)");
   checking.add("--bus", "INTERFACE ...", options->buses,
                "Network interfaces of an EtherCAT bus, to be checked as well");
-  base::Options& tuning = verb("tune", "Show kernel settings that real time needs and that differ here", &tune);
+  base::Options& tuning =
+      verb("tune", "Show kernel settings that real time needs and that differ on this machine", &tune);
   tuning.flag("--apply", options->apply, "Apply these settings until the next reboot (needs root)");
   tuning.add("--core", "N", options->core, "Core to keep free of interrupts (default: the last)");
   with_test(tuning);
@@ -258,9 +259,9 @@ Action declare_doctor(base::Options& app, Context& context) {
 
 const Verb kDoctorVerb{
     "doctor", "Before it runs", "Show whether this machine is fit for real time, and what to do if not",
-    "Checks the kernel, clocks, cores, rights, memory and disk, then measures for two seconds how late a thread is\n"
-    "woken up every millisecond. `indurop status` shows what a running node was granted.\n"
-    "Exit code 0 if nothing is marked FAIL, else 1.\n"
+    "Checks the kernel, clocks, cores, rights, memory and disk, then measures for two seconds how late a\n"
+    "thread is woken every millisecond. `indurop status` shows what a running node was granted. Exit code 0 if\n"
+    "nothing is marked FAIL, else 1.\n"
     "Examples:\n"
     "  indurop doctor\n"
     "  indurop doctor -o json\n"

@@ -278,7 +278,7 @@ Action declare_explain(base::Options& app, Context& context) {
   app.add("what", "NAME", options->what, "A module, a variable or a board").required();
   app.add("--tick", "N", options->tick, "Explain this tick (default: the last one in which something was wrong)");
   app.add("--from", "FILE.mcap", options->files,
-          "Use a recording or a black box instead of a node; of a plant, one of each board, or one of all")
+          "Use a recording or a black box instead of a node; for a plant, one file of each board, or one of all boards")
       .completes(base::Completion::File);
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json});
@@ -287,16 +287,15 @@ Action declare_explain(base::Options& app, Context& context) {
 
 }  // namespace
 
-const Verb kExplainVerb{"explain", "Timing", "Explain why a module was late, a value is old or a board is gone",
-                        "Of a module: why it did not run in a tick, or ended late. Of a variable: why its value is "
-                        "old, and who wrote, set\n"
-                        "or forced it last. Of a board: why it is silent. The answer names a culprit only if what "
-                        "is known shows it, and\n"
-                        "says what shows it; else it says why it does not know.\n"
-                        "Examples:\n"
-                        "  indurop explain control\n"
-                        "  indurop explain control --tick 48213\n"
-                        "  indurop explain cell::encoder --from run.control.mcap --from run.sensor.mcap\n",
-                        &declare_explain};
+const Verb kExplainVerb{
+    "explain", "Timing", "Explain why a module was late, a value is old or a board is lost",
+    "For a module it explains why it did not run in a tick, or ended late; for a variable, why its value is old,\n"
+    "and who wrote, set or forced it last; for a board, why it is silent. The answer names a cause only if there\n"
+    "is evidence for it, and shows that evidence; otherwise it explains why the cause is not known.\n"
+    "Examples:\n"
+    "  indurop explain control\n"
+    "  indurop explain control --tick 48213\n"
+    "  indurop explain cell::encoder --from run.control.mcap --from run.sensor.mcap\n",
+    &declare_explain};
 
 }  // namespace indurop::tools

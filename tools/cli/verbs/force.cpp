@@ -172,9 +172,9 @@ Action declare_force(base::Options& app, Context& context) {
   app.add("assignment", "TEXT", options->words, "NAME VALUE, or NAME=VALUE ...")
       .required()
       .completes(base::Completion::Variable);
-  add_time_option(app, "--for", options->for_ns, "Release automatically after this time (default: until unforce)");
+  add_time_option(app, "--for", options->for_ns, "Release after this time (default: hold until unforce)");
   app.flag("--lease", options->lease,
-           "Stay, and release when this command ends: by Ctrl-C, or 2 s after it was killed");
+           "Keep running, and release when this command ends: on Ctrl-C, or 2 s after it is killed");
   add_reason_option(app, context);
   add_node_option(app, context);
   add_board_force_options(app, options->board);
@@ -183,9 +183,9 @@ Action declare_force(base::Options& app, Context& context) {
 
 Action declare_unforce(base::Options& app, Context& context) {
   auto options = std::make_shared<UnforceOptions>();
-  app.add("names", "NAME", options->names, "Forced values, or what they are parts of, or globs")
+  app.add("names", "NAME", options->names, "Forced values, variables that contain them, or globs")
       .completes(base::Completion::Variable);
-  app.flag("--all", options->all, "Everything that is forced");
+  app.flag("--all", options->all, "Release everything that is forced");
   add_reason_option(app, context);
   add_node_option(app, context);
   add_board_force_options(app, options->board);
@@ -204,13 +204,13 @@ Action declare_forces(base::Options& app, Context& context) {
 
 const Verb kForceVerb{
     "force", "Variables", "Hold values against all writers",
-    "Values that modules, processes, drivers and other boards write to a forced number are discarded, so an\n"
-    "input can be simulated and an output be held while the program runs. Programs see the forced value, and so\n"
-    "do boards that mirror the variable: force it on the board that owns it. Of a struct, the elements and fields\n"
-    "that the value names are held; the others continue. A force ends with unforce, after --for, with this\n"
+    "Values that modules, processes, drivers and other boards write to a forced number are discarded. So you can\n"
+    "simulate an input or hold an output while the program runs. Programs see the forced value, and so do boards\n"
+    "that mirror the variable: force it on the board that owns it. In a struct, only the elements and fields that\n"
+    "the value names are held; the others continue to change. A force ends with unforce, after --for, with this\n"
     "command (--lease), or when the node ends; the value then stays until it is written. 'indurop status' shows\n"
-    "what is forced. With --board the agent of a board anywhere in the network forces; a secured board accepts\n"
-    "commands only from clients with its keys.\n"
+    "what is forced. With --board, the agent of a board anywhere in the network forces the value; a secured board\n"
+    "accepts commands only from clients with its keys.\n"
     "Examples:\n"
     "  indurop force PLC_ROBOT::I0 true --for 30s\n"
     "  indurop force 'joints[1].y=-0.5' mode=AUTO\n"

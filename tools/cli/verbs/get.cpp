@@ -91,14 +91,14 @@ Action declare_get(base::Options& app, Context& context) {
 
 }  // namespace
 
-const Verb kGetVerb{"get", "Variables", "Print the value of variables or parts of them",
-                    "Leading namespaces may be left out if the rest is unique; '.' and '::' both separate them.\n"
-                    "One name prints nothing but its value, so that x=$(indurop get tick) works.\n"
-                    "Of a pool it shows chunks, drops and users.\n"
-                    "Examples:\n"
-                    "  indurop get tick\n"
-                    "  indurop get 'joints[1].y' 'joints[2]'\n"
-                    "  indurop get 'knu::Robot::*' -o json\n",
-                    &declare_get};
+const Verb kGetVerb{
+    "get", "Variables", "Print the value of variables or parts of them",
+    "Leading namespaces may be omitted if the rest is unique; '.' and '::' both separate them. For a single name,\n"
+    "only the value is printed, so that x=$(indurop get tick) works. For a pool it shows chunks, drops and users.\n"
+    "Examples:\n"
+    "  indurop get tick\n"
+    "  indurop get 'joints[1].y' 'joints[2]'\n"
+    "  indurop get 'knu::Robot::*' -o json\n",
+    &declare_get};
 
 }  // namespace indurop::tools

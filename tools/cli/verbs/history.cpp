@@ -130,8 +130,8 @@ Action declare_history(base::Options& app, Context& context) {
 
 const Verb kHistoryVerb{
     "history", "Plants", "Show the deployments of the boards and their outcomes",
-    "Oldest first; * marks what runs now. indurop rollback ID goes back to one that was committed.\n"
-    "Exit code 6 if a board is not heard or does not answer: it is named, and the list is without it.\n"
+    "The oldest is listed first; * marks what runs now. indurop rollback ID goes back to a deployment that was\n"
+    "committed. Exit code 6 if a board does not report or answer: it is named, and missing from the list.\n"
     "Examples:\n"
     "  indurop history\n"
     "  indurop history --board press_1 -o json\n",

@@ -267,56 +267,60 @@ Action declare_io(base::Options& app, Context& context) {
   auto request = std::make_shared<ImportRequest>();
   auto chosen = std::make_shared<Action>();
   base::Options& scanning =
-      app.command("scan", "List the slaves of an EtherCAT bus, with what they exchange",
+      app.command("scan", "List the slaves of an EtherCAT bus and their process data",
                   [options, chosen] { *chosen = [options](Context& c) { return scan(c, *options); }; });
-  scanning.add("interface", "INTERFACE", options->interface, "Where the cable is; of a ring two: eth1,eth2").required();
+  scanning.add("interface", "INTERFACE", options->interface, "Network interface of the bus; two for a ring: eth1,eth2")
+      .required();
   scanning.add("--write", "FILE", options->file, "Write an ioconfig.xml for them").completes(base::Completion::File);
-  scanning.add("--namespace", "NAME", options->space, "Of the variables in that file (default: IO)");
+  scanning.add("--namespace", "NAME", options->space, "Namespace of the variables in that file (default: IO)");
   add_format_option(scanning, context, {Format::Table, Format::Json, Format::Csv});
   scanning.details(
-      "Reads the EEPROM of each slave by its position. No state and no output changes; still, it is one more talker\n"
-      "on the bus: do not scan a bus that moves a machine. Needs root or CAP_NET_RAW.\n");
+      "Reads the EEPROM of each slave by its position. No state and no output changes. The scan still sends frames\n"
+      "of its own: do not scan a bus that is moving a machine. Needs root or CAP_NET_RAW.\n");
   base::Options& describing =
       app.command("objects", "List the objects of an EtherCAT slave, as it describes them itself",
                   [options, chosen] { *chosen = [options](Context& c) { return objects(c, *options); }; });
-  describing.add("interface", "INTERFACE", options->interface, "Where the cable is; of a ring two: eth1,eth2")
+  describing
+      .add("interface", "INTERFACE", options->interface, "Network interface of the bus; two for a ring: eth1,eth2")
       .required();
   describing.add("--slave", "NUMBER", options->slave, "Position on the cable, from 0 (default 0)").range(0, kMaxSlave);
   add_format_option(describing, context, {Format::Table, Format::Json, Format::Csv});
   describing.details(
-      "Takes the slave to PREOP, reads its object dictionary by SDO information, and leaves it in INIT. A slave that "
-      "a\n"
-      "master runs is refused. Needs root or CAP_NET_RAW.\n");
+      "Takes the slave to PREOP, reads its object dictionary by SDO information, and leaves it in INIT. A slave\n"
+      "that a master is using is rejected. Needs root or CAP_NET_RAW.\n");
   const auto files = [&](const char* name, const char* help, int (*act)(Context&, const IoOptions&)) {
     base::Options& made = app.command(
         name, help, [options, chosen, act] { *chosen = [options, act](Context& c) { return act(c, *options); }; });
-    made.add("interface", "INTERFACE", options->interface, "Where the cable is; of a ring two: eth1,eth2").required();
-    made.add("name", "NAME", options->name, "Name of the file in the slave, as its manual says").required();
-    made.add("file", "FILE", options->file, "The file here").required().completes(base::Completion::File);
+    made.add("interface", "INTERFACE", options->interface, "Network interface of the bus; two for a ring: eth1,eth2")
+        .required();
+    made.add("name", "NAME", options->name, "Name of the file in the slave (see its manual)").required();
+    made.add("file", "FILE", options->file, "The local file").required().completes(base::Completion::File);
     made.add("--slave", "NUMBER", options->slave, "Position on the cable, from 0 (default 0)").range(0, kMaxSlave);
-    made.add("--password", "NUMBER", options->password, "That of the slave, if it has one").range(0, kMaxPassword);
-    made.flag("--boot", options->boot, "In the state BOOT, as most firmware has to be written");
+    made.add("--password", "NUMBER", options->password, "Password of the slave, if it has one").range(0, kMaxPassword);
+    made.flag("--boot", options->boot, "Use the state BOOT, which most slaves require for firmware");
     made.details(
         "Takes the slave to PREOP or BOOT, transfers the file (FoE), and leaves it in INIT. A slave that a master "
         "runs\n"
         "is refused. Needs root or CAP_NET_RAW.\n");
   };
-  files("read-file", "Read a file of an EtherCAT slave", &read_slave_file);
-  files("write-file", "Write a file or firmware into an EtherCAT slave", &write_slave_file);
+  files("read-file", "Read a file from an EtherCAT slave", &read_slave_file);
+  files("write-file", "Write a file or firmware to an EtherCAT slave", &write_slave_file);
   base::Options& importing =
-      app.command("import", "List the devices that makers describe (ESI), and write them",
+      app.command("import", "List the devices in manufacturers' descriptions (ESI), and write them to an ioconfig.xml",
                   [request, chosen] { *chosen = [request](Context& c) { return import_esi(c, *request); }; });
   add_import_options(importing, *request);
   add_format_option(importing, context, {Format::Table, Format::Json, Format::Csv});
   importing.details(
-      "With --write, devices of that file that are described get <sync> and <set>s if they have none, and those of\n"
-      "--device are added. The clock mode is the device's first one, or that of --mode.\n");
+      "With --write, devices in that file for which there is a description get <sync> and <set> elements if they\n"
+      "have none, and the devices of --device are added. The clock mode is the device's first one, or that of\n"
+      "--mode.\n");
   return [chosen](Context& c) { return (*chosen)(c); };
 }
 
 }  // namespace
 
-const Verb kIoVerb{"io", "Before it runs", "Field devices, without a node: scan an EtherCAT bus, read ESI files",
+const Verb kIoVerb{"io", "Before it runs",
+                   "Work with field devices without a node: scan an EtherCAT bus, read ESI files",
                    "Examples:\n"
                    "  indurop io scan eth1\n"
                    "  indurop io scan eth1 --write ioconfig.xml\n"

@@ -216,7 +216,7 @@ Action declare_jitter(base::Options& app, Context& context) {
   app.add("module", "GLOB", options->glob, "Only modules that match").completes(base::Completion::Module);
   app.add("--quantity", "WHAT", options->quantity, "jitter|latency|exec|response|all (default all)")
       .choices({"jitter", "latency", "exec", "response", "all"});
-  app.flag("--histogram", options->histogram, "Histograms below the table also in a pipe; buckets in JSON");
+  app.flag("--histogram", options->histogram, "Draw histograms below the table in a pipe, too; buckets in JSON");
   app.flag("--no-histogram", options->no_histogram, "Only the table");
   app.add("--svg", "FILE", options->svg_file, "Write histograms as a picture to FILE");
   add_node_option(app, context);
@@ -231,7 +231,7 @@ Action declare_jitter(base::Options& app, Context& context) {
 
 }  // namespace
 
-const Verb kJitterVerb{"jitter", "Timing", "Show how exactly modules start and how long they take",
+const Verb kJitterVerb{"jitter", "Timing", "Show how precisely modules start and how long they run",
                        "jitter    |J_n|: how far a start was from its place on the grid (0 is perfect)\n"
                        "latency   from the release to the first instruction of run()\n"
                        "exec      run() itself\n"

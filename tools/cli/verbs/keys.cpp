@@ -199,18 +199,17 @@ Action declare_keys(base::Options& app, Context& context) {
     return &made;
   };
   base::Options* made =
-      verb("init", "Make an authority, keys for the boards of a plant, a viewer and a deployer", &init_keys);
+      verb("init", "Create an authority, and keys for the boards of a plant, a viewer and a deployer", &init_keys);
   made->add("plant", "PLANT", request->plant, "Manifest of the plant (default: plant.xml)");
   add_days(*made, *request);
-  made = verb("add", "Make the keys of a further board, viewer, user, deployer or tool", &add_keys);
+  made = verb("add", "Create the keys of another board, viewer, user, deployer or tool", &add_keys);
   made->add("boards", "BOARD", request->boards, "Names of the boards");
   made->add("--tool", "NAME", request->tool,
             "A program that takes part in <external secure=\"on\">, instead of boards");
   made->add("--viewer", "NAME", request->viewer, "A user who may read, instead of boards");
   made->add("--user", "NAME", request->user, "A user of the plant's list (indurop users), instead of boards");
   made->add("--deployer", "NAME", request->deployer, "A user who may deploy, instead of boards");
-  add_pattern_option(*made, "--read", request->read,
-                     "Variables it may read: names and patterns, with commas between them");
+  add_pattern_option(*made, "--read", request->read, "Variables it may read: names and patterns, separated by commas");
   add_pattern_option(*made, "--write", request->write, "Variables it may set, and read");
   add_days(*made, *request);
   add_format_option(*verb("list", "Show who has keys, and until when they are valid", &list), context,
@@ -218,17 +217,19 @@ Action declare_keys(base::Options& app, Context& context) {
   made = verb("renew", "Issue new certificates for the same private keys", &renew);
   made->add("names", "NAME", request->boards, "Names of their owners (default: all)");
   add_days(*made, *request);
-  made = verb("revoke", "Make certificates void", &revoke);
-  made->add("names", "NAME", request->boards, "Whose").required();
+  made = verb("revoke", "Revoke certificates", &revoke);
+  made->add("names", "NAME", request->boards, "Names of their owners").required();
   made =
-      verb("rotate", "Give deployers a new key that signs deployments; the former one counts until --finish", &rotate);
+      verb("rotate", "Create a new key with which deployers sign deployments; the previous one is valid until --finish",
+           &rotate);
   made->add("names", "NAME", request->boards, "Names of the deployers (default: deployer)");
-  made->flag("--finish", request->finish, "End the validity of previous keys; all boards must have deploy.pub");
-  made =
-      verb("server", "Make or renew the TLS certificate of an indurop serve, by which browsers trust it", &make_server);
-  made->add("name", "NAME", request->boards, "Name of the server; its files are in servers/NAME").required();
-  made->add("--host", "HOST", request->hosts, "Addresses and names under which it is reached").required();
-  made->flag("--opcua", request->opcua, "For indurop-opcua instead; the first --host is the name in its URI");
+  made->flag("--finish", request->finish,
+             "Invalidate the previous keys; all boards must already have the new deploy.pub");
+  made = verb("server", "Create or renew the TLS certificate of an indurop serve, so that browsers trust it",
+              &make_server);
+  made->add("name", "NAME", request->boards, "Name of the server; its files go to servers/NAME").required();
+  made->add("--host", "HOST", request->hosts, "Addresses and names under which clients reach it").required();
+  made->flag("--opcua", request->opcua, "Create it for indurop-opcua instead; the first --host is the name in its URI");
   made->add("--days", "N", request->server_days, fmt::format("How long it is valid (default: {})", kServerDays))
       .range(1, kMostDays);
   return [chosen_action](Context& c) { return (*chosen_action)(c); };
@@ -236,16 +237,17 @@ Action declare_keys(base::Options& app, Context& context) {
 
 }  // namespace
 
-const Verb kKeysVerb{"keys", "Before it runs", "Make and list the keys of a plant",
-                     "Only holders of keys of the plant can read or write its variables once the manifest says\n"
-                     "<security>keys</security>. docs/security.md tells which file belongs where.\n"
-                     "Private keys are readable by their owner alone and never replaced.\n"
-                     "Examples:\n"
-                     "  indurop keys init plant.xml --dir keys\n"
-                     "  indurop keys list --dir keys\n"
-                     "  indurop keys add --tool panel --read 'cell::*' --write cell::target\n"
-                     "  indurop keys add --deployer anna\n"
-                     "  indurop keys server desk --host 192.168.1.5 cell.local\n",
-                     &declare_keys};
+const Verb kKeysVerb{
+    "keys", "Before it runs", "Create and list the keys of a plant",
+    "Once the manifest contains <security>keys</security>, only holders of keys of the plant can read or write\n"
+    "its variables. docs/security.md describes which file belongs where. Private keys are readable only by their\n"
+    "owner and are never replaced.\n"
+    "Examples:\n"
+    "  indurop keys init plant.xml --dir keys\n"
+    "  indurop keys list --dir keys\n"
+    "  indurop keys add --tool panel --read 'cell::*' --write cell::target\n"
+    "  indurop keys add --deployer anna\n"
+    "  indurop keys server desk --host 192.168.1.5 cell.local\n",
+    &declare_keys};
 
 }  // namespace indurop::tools

@@ -58,7 +58,7 @@ int lock(Context& context, LockOptions& options) {
 
 Action declare_lock(base::Options& app, Context& context) {
   auto options = std::make_shared<LockOptions>();
-  app.add("lock", "none|tune|all", options->word, "New lock; without it: show the present one");
+  app.add("lock", "none|tune|all", options->word, "New lock (default: show the current one)");
   add_reason_option(app, context);
   add_node_option(app, context);
   add_board_force_options(app, options->board);
@@ -69,12 +69,13 @@ Action declare_lock(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kLockVerb{
-    "lock", "Variables", "Keep a node from being written to by accident",
-    "none: everybody with the rights to do so may set, force, load recipes and stop modules. tune: parameters\n"
-    "(variables declared with a value) may be set, nothing else. all: nothing. The lock holds for every tool, the\n"
-    "page and commands from the network, until it is changed; it outlives a restart of the node, not of the machine.\n"
-    "Modules and boards of the plant continue to write, existing forces stay, and a whole node can be stopped.\n"
-    "Every user who may write may also unlock: it guards against slips, not against people.\n"
+    "lock", "Variables", "Protect a node against accidental writes",
+    "none: users who have the rights may set, force, load recipes and stop modules. tune: parameters (variables\n"
+    "declared with a value) may be set, nothing else. all: nothing may be changed. The lock applies to every\n"
+    "tool, the page and commands from the network, until it is changed; it survives a restart of the node, but\n"
+    "not of the machine. Modules and boards of the plant continue to write, existing forces stay, and a whole\n"
+    "node can be stopped. Every user who may write may also unlock: the lock protects against mistakes, not\n"
+    "against people.\n"
     "Examples:\n"
     "  indurop lock tune --reason production\n"
     "  indurop lock none --board control --keys keys\n"

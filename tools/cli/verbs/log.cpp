@@ -94,13 +94,14 @@ Action declare_log(base::Options& app, Context& context) {
 
 }  // namespace
 
-const Verb kLogVerb{"log", "Timing", "Show which module ran when, as table or as a trace for Perfetto",
-                    "TIME is the release, counted from tick 0; LATENCY from there to the first instruction of run();\n"
-                    "EXEC run() itself; RESPONSE release to end. The node keeps the newest 8192 runs.\n"
-                    "Examples:\n"
-                    "  indurop log -n 50\n"
-                    "  indurop log --trace trace.json   # for ui.perfetto.dev\n"
-                    "  indurop log --board control\n",
-                    &declare_log};
+const Verb kLogVerb{
+    "log", "Timing", "Show which module ran when, as a table or as a trace for Perfetto",
+    "TIME is the release, counted from tick 0; LATENCY is from there to the first instruction of run(); EXEC is\n"
+    "run() itself; RESPONSE is from the release to the end. The node keeps the newest 8192 runs.\n"
+    "Examples:\n"
+    "  indurop log -n 50\n"
+    "  indurop log --trace trace.json   # for ui.perfetto.dev\n"
+    "  indurop log --board control\n",
+    &declare_log};
 
 }  // namespace indurop::tools

@@ -159,8 +159,8 @@ Action declare_new(base::Options& app, Context& /*context*/) {
 
 const Verb kNewVerb{
     "new", "Before it runs", "Make a project that builds and runs",
-    "A .glb file, two thread modules, a process module, a test, module.xml, CMakeLists.txt, Makefile, README.\n"
-    "It never writes into a folder that is not empty.\n"
+    "The project has a .glb file, two thread modules, a process module, a test, module.xml, CMakeLists.txt, a\n"
+    "Makefile and a README. The verb never writes to a folder that is not empty.\n"
     "Examples:\n"
     "  indurop new demo\n"
     "  indurop new line --with plc --boards 3\n",

@@ -112,8 +112,8 @@ int nodes(Context& context, bool names_only, bool all) {
 Action declare_nodes(base::Options& app, Context& context) {
   auto names = std::make_shared<bool>(false);
   auto all = std::make_shared<bool>(false);
-  app.flag("--all", *all, "Also nodes that do not run and left values behind, and those of other users");
-  app.flag("--names", *names, "Print nothing but the names");
+  app.flag("--all", *all, "Also list nodes that ended and left values behind, and nodes of other users");
+  app.flag("--names", *names, "Print only the names");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [names, all](Context& c) { return nodes(c, *names, *all); };
 }

@@ -96,10 +96,10 @@ Action declare_overruns(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kOverrunsVerb{
-    "overruns", "Timing", "Show the recorded overruns and who caused them",
-    "An overrun is a release that found the module's previous run unfinished. OWN TIME is what the module itself had\n"
-    "used by then, LATENCY how late it had started, BEFORE IT who ran before it in that basic period. The newest 256\n"
-    "records are kept; the counters of `indurop status` count all.\n"
+    "overruns", "Timing", "Show the recorded overruns and their causes",
+    "An overrun is a release at which the module's previous run had not ended. OWN TIME is the time that the\n"
+    "module itself had used by then, LATENCY how late it had started, BEFORE IT the module that ran before it in\n"
+    "that basic period. The newest 256 records are kept; the counters of `indurop status` count all overruns.\n"
     "Examples:\n"
     "  indurop overruns\n"
     "  indurop overruns control -n 100\n"

@@ -63,9 +63,9 @@ Action declare_pack(base::Options& app, Context& /*context*/) {
 
 const Verb kPackVerb{
     "pack", "Plants", "Pack a plant into one signed file",
-    "Checks the plant and writes its manifest, modules and data into one file, which indurop deploy takes on any\n"
-    "machine, without sources or a compiler. Equal files give the same deployment id, as indurop deploy shows it.\n"
-    "The file is a tar archive with zstd: tar tf FILE lists it.\n"
+    "Checks the plant and writes its manifest, modules and data to one file, which indurop deploy accepts on any\n"
+    "machine, without sources or a compiler. Equal files have the same deployment id, which indurop deploy shows.\n"
+    "The file is a tar archive with zstd compression: tar tf FILE lists it.\n"
     "Exit codes: 0 packed, 1 a file cannot be read or written, 4 the check found errors.\n"
     "Examples:\n"
     "  indurop pack plant.xml\n"

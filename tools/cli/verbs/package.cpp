@@ -94,9 +94,10 @@ Action declare_package(base::Options& app, Context& /*context*/) {
 
 const Verb kPackageVerb{
     "package", "Plants", "Make a Debian package of a plant or its bundle",
-    "The package installs the bundle as /usr/share/indurop/plants/PLANT.bundle and needs the package indurop. It asks\n"
-    "nothing and deploys nothing: indurop deploy takes that file when the plant may change. The same bundle gives the\n"
-    "same package, byte by byte. Needs dpkg-deb, which every Debian has.\n"
+    "The package installs the bundle as /usr/share/indurop/plants/PLANT.bundle and depends on the package\n"
+    "indurop. Its installation asks no questions and deploys nothing: run indurop deploy with that file when the\n"
+    "plant may change. The same bundle gives the same package, byte for byte. Needs dpkg-deb, which is part of\n"
+    "every Debian.\n"
     "Exit codes: 0 written, 1 a file cannot be read or written, 4 the check found errors.\n"
     "Examples:\n"
     "  indurop package cell.bundle --package-version 1.2\n"

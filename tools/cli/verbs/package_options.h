@@ -16,7 +16,7 @@ namespace indurop::tools {
 
 inline void add_comment_option(base::Options& line, std::string& comment) {
   static constexpr std::size_t kMaxCharacters = 200;
-  line.add("-m,--comment", "TEXT", comment, "What this deployment is, for history and boards")
+  line.add("-m,--comment", "TEXT", comment, "Description of this deployment, shown by history and boards")
       .check([](const std::string& text) {
         return base::characters(text) <= kMaxCharacters && printable(text) == text
                    ? std::string()
@@ -26,7 +26,7 @@ inline void add_comment_option(base::Options& line, std::string& comment) {
 
 inline void add_also_option(base::Options& line, std::vector<std::string>& folders) {
   line.add("--also", "FOLDER", folders,
-           "Files of the plant may lie in this folder, too, not only in the manifest's; may be given several times")
+           "Also allow files of the plant from this folder, not only from the manifest's; may be repeated")
       .completes(base::Completion::Folder);
 }
 

@@ -80,8 +80,9 @@ Action declare_plan(base::Options& app, Context& context) {
   app.add("file", "FILE", options->file,
           "module.xml, or the manifest of a plant (default: module.xml, else plant.xml)");
   app.add("--svg", "FILE", options->svg_file, "Write the timing diagram to FILE");
-  app.flag("--adjust", options->adjust, "Round periods so that the basic period is not too small, instead of an error");
-  app.flag("--why", options->why, "Explain which core each module is on, and what waits for what");
+  app.flag("--adjust", options->adjust,
+           "Round periods if the basic period would be too short, instead of reporting an error");
+  app.flag("--why", options->why, "Explain which core each module runs on, and which module waits for which");
   config::add_times_option(app, options->times);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv, Format::Svg});
   return [options](Context& c) { return plan(c, *options); };
@@ -89,15 +90,15 @@ Action declare_plan(base::Options& app, Context& context) {
 
 }  // namespace
 
-const Verb kPlanVerb{"plan", "Before it runs",
-                     "Show the schedule: which module runs in which basic period, in which order",
-                     "Works without the module files: only the periods, offsets and priorities count.\n"
-                     "Of modules with <wcet>, and with --times, it shows when each ends at the latest.\n"
-                     "-o svg prints a timing diagram for a browser or a document. Of a plant, all boards are shown.\n"
-                     "Examples:\n"
-                     "  indurop plan\n"
-                     "  indurop plan plant.xml -o svg > plan.svg\n"
-                     "  indurop plan module.xml --times report.json --why\n",
-                     &declare_plan};
+const Verb kPlanVerb{
+    "plan", "Before it runs", "Show the schedule: which modules run in which basic period, and in which order",
+    "Works without the module files, because only periods, offsets and priorities matter. For modules with\n"
+    "<wcet>, or with --times, it shows the latest time at which each module ends. -o svg prints a timing diagram\n"
+    "for a browser or a document. For a plant, all boards are shown.\n"
+    "Examples:\n"
+    "  indurop plan\n"
+    "  indurop plan plant.xml -o svg > plan.svg\n"
+    "  indurop plan module.xml --times report.json --why\n",
+    &declare_plan};
 
 }  // namespace indurop::tools

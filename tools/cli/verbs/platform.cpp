@@ -268,11 +268,11 @@ void add_switch_options(base::Options& line, Context& context, PlatformRequest& 
   deploy::add_link_options(line, request.link);
   line.add("--plant", "NAME", request.plant, "Name of the plant (default: the only one)");
   add_time_option(line, "--timeout", request.timeout_ns,
-                  "How long to wait for boards to be heard or to answer (default: 5s)");
+                  "How long to wait for boards to report or answer (default: 5s)");
   add_time_option(line, "--health", request.health_ns,
                   "How long to monitor the release before it is committed (default: 5s)");
   line.flag("--allow-missing", request.allow_missing,
-            "Without boards that are not heard; they follow when they appear");
+            "Continue without boards that do not report; they follow when they appear");
   add_format_option(line, context, {Format::Table, Format::Json, Format::Csv});
 }
 
@@ -301,11 +301,11 @@ Action declare_platform(base::Options& app, Context& context) {
       .completes(base::Completion::Folder);
   add_comment_option(packing, request->comment);
   base::Options& deploying =
-      verb("deploy", "Update the platform of all boards of a plant, or of none", &deploy_release);
+      verb("deploy", "Update the platform on all boards of a plant, or on none", &deploy_release);
   deploying.add("file", "FILE", request->file, "File of indurop platform pack").required();
   add_switch_options(deploying, context, *request);
-  deploying.flag("--older", request->older, "Also a release that is older than what boards run");
-  add_switch_options(verb("back", "Go back to the release before", &go_back), context, *request);
+  deploying.flag("--older", request->older, "Also deploy a release that is older than what the boards run");
+  add_switch_options(verb("back", "Go back to the previous release", &go_back), context, *request);
   base::Options& showing = verb("status", "Show the release of each board", &show_status);
   deploy::add_link_options(showing, request->link);
   add_time_option(showing, "--wait", request->wait_ns, "Maximum time to wait for boards (default: 3s)");
@@ -317,9 +317,9 @@ Action declare_platform(base::Options& app, Context& context) {
 
 const Verb kPlatformVerb{
     "platform", "Plants", "Update InduRoP itself on the boards of a plant",
-    "A release has programs and libraries. Boards keep it next to the one that runs, check it, switch together and go\n"
-    "back together if one of them does not do well. The switch starts their nodes again, so the plant stands for a\n"
-    "moment. Exit codes: those of indurop deploy.\n"
+    "A release contains programs and libraries. Boards store it next to the running release, check it, switch\n"
+    "together, and go back together if one of them is not healthy. The switch restarts their nodes, so the plant\n"
+    "stops for a moment. The exit codes are those of indurop deploy.\n"
     "Examples:\n"
     "  indurop platform pack /usr --keys keys\n"
     "  indurop platform deploy indurop-0.3.0.release --keys keys\n"

@@ -25,9 +25,9 @@ Action declare_plc(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kPlcVerb{
-    "plc", "Before it runs", "PLC programs: check, build, debug, export, print, watch, cover them",
-    "Programs are Structured Text (.st), or PLCopen TC6 XML as Beremiz, the OpenPLC editor and CODESYS\n"
-    "export it. build prints the modules as module.xml has them; each TASK is one.\n"
+    "plc", "Before it runs", "Check, build, debug, export, print and watch PLC programs; show test coverage",
+    "Programs are Structured Text (.st), or PLCopen TC6 XML as exported by Beremiz, the OpenPLC editor and\n"
+    "CODESYS. build prints the module entries for module.xml; each TASK becomes one module.\n"
     "Exit code 0, 4 if the program has errors, 1 if it could not be built.\n"
     "Examples:\n"
     "  indurop plc build motor.st -o build\n"

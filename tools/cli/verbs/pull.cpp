@@ -69,7 +69,7 @@ int pull(Context& context, PullOptions& options) {
 Action declare_pull(base::Options& app, Context& /*context*/) {
   auto options = std::make_shared<PullOptions>();
   app.add("folder", "DIR", options->folder, "New or empty folder for the sources (default: name of the plant)");
-  app.add("--plant", "NAME", options->plant, "The plant, if boards of several are heard");
+  app.add("--plant", "NAME", options->plant, "The plant, if boards of several plants report");
   deploy::add_link_options(app, options->link);
   return [options](Context& c) { return pull(c, *options); };
 }
@@ -78,9 +78,11 @@ Action declare_pull(base::Options& app, Context& /*context*/) {
 
 const Verb kPullVerb{
     "pull", "Plants", "Fetch the sources of what a plant runs",
-    "indurop deploy and indurop pack take the sources of a plant along (<sources> of the manifest). This verb fetches\n"
-    "them from a board into a folder in which they can be built, and says from which commit they were.\n"
-    "Exit codes: 0 fetched, 1 deployed without sources, or the folder is not empty, 6 no board of the plant is heard.\n"
+    "indurop deploy and indurop pack include the sources of a plant (<sources> in the manifest). This verb\n"
+    "fetches them from a board into a folder in which they can be built, and reports the commit that they came\n"
+    "from.\n"
+    "Exit codes: 0 fetched, 1 deployed without sources, or the folder is not empty, 6 no board of the plant\n"
+    "reports.\n"
     "Examples:\n"
     "  indurop pull\n"
     "  indurop pull cell-as-it-runs --plant cell --keys keys\n",

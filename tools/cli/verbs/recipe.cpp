@@ -142,7 +142,7 @@ Action declare_recipe(base::Options& app, Context& context) {
   });
   saving.add("names", "VAR", options->names, "Variables, parts or globs (default: all parameters)")
       .completes(base::Completion::Variable);
-  saving.add("--comment", "TEXT", options->comment, "What it is for");
+  saving.add("--comment", "TEXT", options->comment, "Description of the recipe");
   named("diff", "Show the values that differ from a recipe", [options](Context& c) {
     return with_recipe(c, vars::Mode::ReadOnly, options->name,
                        [&](vars::Store& store, const Recipe& recipe) { return diff(c, store, recipe); });
@@ -163,10 +163,11 @@ Action declare_recipe(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kRecipeVerb{
-    "recipe", "Variables", "Save sets of parameters, compare them, load them in one tick",
-    "A recipe is a file of values in the state folder of the node. Parameters are variables that are declared with a\n"
-    "value. Loading checks all values before the first is written, says everything that is wrong, and changes all of\n"
-    "them between two ticks, so that no module sees some old and some new; at most 512 values of 32 KiB together.\n"
+    "recipe", "Variables", "Save and compare sets of parameters, and load them in one tick",
+    "A recipe is a file of values in the state folder of the node. Parameters are variables that are declared\n"
+    "with a value. Before loading, all values are checked and all errors are reported at once. All values then\n"
+    "change between two ticks, so that no module sees a mixture of old and new; at most 512 values of 32 KiB in\n"
+    "total.\n"
     "Examples:\n"
     "  indurop recipe save bottles 'press::*' --comment '0.5 l, glass'\n"
     "  indurop recipe diff bottles\n"

@@ -290,8 +290,8 @@ int record(Context& context, RecordOptions& options) {
 Action declare_record(base::Options& app, Context& context) {
   auto options = std::make_shared<RecordOptions>();
   app.add("names", "GLOB", options->names, "Variables, or globs; none: all").completes(base::Completion::Variable);
-  app.add("-o,--file", "FILE.mcap", options->file, "The file; it must not be there yet").required();
-  app.flag("--past", options->past, "Begin with the oldest run that the node still has on its tape");
+  app.add("-o,--file", "FILE.mcap", options->file, "File to write; it must not exist yet").required();
+  app.flag("--past", options->past, "Begin with the oldest run that is still on the node's tape");
   add_time_option(app, "--duration", options->duration_ns, "End after this time");
   add_amount_option(app, "--split", options->limits.split_ns, options->limits.split_bytes,
                     "Start a new file (run.0002.mcap, ...) after this time or size: 10min, 100MB");
@@ -300,7 +300,7 @@ Action declare_record(base::Options& app, Context& context) {
   app.add("--plant", "FILE", options->plant,
           "Record all boards of this plant in one file; agents record those that do not run on this host")
       .completes(base::Completion::File);
-  app.flag("--remote", options->remote, "With --plant: agents record those of this host, too");
+  app.flag("--remote", options->remote, "With --plant: let agents record the boards of this host, too");
   deploy::add_link_options(app, options->link);
   add_node_option(app, context);
   return [options](Context& c) { return record(c, *options); };
@@ -309,12 +309,11 @@ Action declare_record(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kRecordVerb{
-    "record", "Variables", "Record what modules read and write, at every run",
-    "The node notes for each run of a module what it began with and what it left, in a ring of shared memory; this\n"
-    "takes it from there to an MCAP file, which Foxglove and PlotJuggler open too. The node does not notice. Whatever\n"
-    "ends the recorder, the file is readable up to its last second. To record from the first run on, so that it can "
-    "be\n"
-    "replayed: indurop run module.xml --record run.mcap.\n"
+    "record", "Variables", "Record what modules read and write in every run",
+    "For each run of a module, the node records what the run began with and what it wrote, in a ring of shared\n"
+    "memory. This verb copies it from there to an MCAP file, which Foxglove and PlotJuggler can also open. The\n"
+    "node is not affected. Even if the recorder is killed, the file is readable up to its last second. To record\n"
+    "from the first run on, so that the recording can be replayed, use indurop run module.xml --record run.mcap.\n"
     "Examples:\n"
     "  indurop record -o run.mcap\n"
     "  indurop record 'PLC_ROBOT::*' 'knu::Robot::joints' -o arm.mcap --duration 60s\n"

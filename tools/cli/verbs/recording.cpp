@@ -22,16 +22,17 @@ Action declare_recording(base::Options& app, Context& context) {
 
 }  // namespace
 
-const Verb kRecordingVerb{"recording", "Variables", "Recordings: info, export, cut, join, play into a running node",
-                          "Recordings are made by record and run --record; black boxes are recordings, too. replay "
-                          "runs their modules again.\n"
-                          "Examples:\n"
-                          "  indurop recording info run.mcap\n"
-                          "  indurop recording export run.mcap 'PLC_ROBOT::*' --csv run.csv\n"
-                          "  indurop recording export run.mcap --trace trace.json   # for ui.perfetto.dev\n"
-                          "  indurop recording cut run.mcap --from 58s --to 60s -o crash.mcap\n"
-                          "  indurop recording join run.sensor.mcap run.control.mcap -o plant.mcap\n"
-                          "  indurop recording play run.mcap\n",
-                          &declare_recording};
+const Verb kRecordingVerb{
+    "recording", "Variables", "Show, export, cut and join recordings, and play them into a running node",
+    "Recordings are made by record and run --record; black boxes are recordings, too. replay runs their modules\n"
+    "again.\n"
+    "Examples:\n"
+    "  indurop recording info run.mcap\n"
+    "  indurop recording export run.mcap 'PLC_ROBOT::*' --csv run.csv\n"
+    "  indurop recording export run.mcap --trace trace.json   # for ui.perfetto.dev\n"
+    "  indurop recording cut run.mcap --from 58s --to 60s -o crash.mcap\n"
+    "  indurop recording join run.sensor.mcap run.control.mcap -o plant.mcap\n"
+    "  indurop recording play run.mcap\n",
+    &declare_recording};
 
 }  // namespace indurop::tools

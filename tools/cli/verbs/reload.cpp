@@ -252,14 +252,14 @@ Action declare_reload(base::Options& app, Context& context) {
   app.add("module", "MODULE", options->module, "A thread module of the node").completes(base::Completion::Module);
   app.add("file", "FILE", options->file, "The file of its new version (default: that of the configuration)")
       .completes(base::Completion::File);
-  app.flag("--dry-run", options->request.dry_run, "Load and compare it, and exchange nothing");
-  app.flag("--back", options->back, "Exchange it with the previous version; without MODULE: the schedule before");
+  app.flag("--dry-run", options->request.dry_run, "Load and compare the new version, but exchange nothing");
+  app.flag("--back", options->back, "Return to the previous version; without MODULE: to the previous schedule");
   app.add("--config", "FILE", options->config,
-          "Another schedule takes over at the begin of a macro period: that of this configuration")
+          "Change to the schedule of this configuration at the beginning of a macro period")
       .completes(base::Completion::File);
-  const base::Option shadow = add_time_option(
-      app, "--shadow", options->shadow_ns,
-      "First compare it with the running version: repeat the runs of this time, and exchange it if nothing differs");
+  const base::Option shadow = add_time_option(app, "--shadow", options->shadow_ns,
+                                              "First compare it with the running version: repeat its runs for this "
+                                              "time, and exchange it only if nothing differs");
   const auto accept = [&accepted = options->accepted](const std::string& text) {
     auto rules = AcceptedDifferences::parse(text);
     if (!rules) {
@@ -268,18 +268,17 @@ Action declare_reload(base::Options& app, Context& context) {
     accepted = std::move(rules).value();
     return std::string();
   };
-  app.add("--accept", "RULES", accept, "With --shadow: differences that do not matter: \"O* == 0, joint < 0.01\"")
-      .needs(shadow);
-  app.flag("--lossy", options->request.lossy, "Exchange it although values that it keeps are lost");
+  app.add("--accept", "RULES", accept, "With --shadow: accepted differences: \"O* == 0, joint < 0.01\"").needs(shadow);
+  app.flag("--lossy", options->request.lossy, "Exchange it even if values that it keeps are lost");
   add_time_option(app, "--health", options->request.health_ns,
-                  "How long the previous version is ready to run again (default 5 s, 0s: not at all)");
+                  "How long the previous version stands by (default 5 s; 0s: not at all)");
   app.add("--guard", "CONDITION", options->request.guard,
-          "A number must be so in that time, else the previous version runs again: \"O0 == 0\"");
+          "Condition that must hold in that time, else the previous version runs again: \"O0 == 0\"");
   add_time_option(app, "--timeout", options->timeout_ns, "How long to wait for the exchange (default 30 s)");
-  app.add("--board", "NAME", options->board, "Exchange it on this board, through its agent, which gets FILE from here")
+  app.add("--board", "NAME", options->board, "Exchange it on this board, through its agent; FILE is sent there")
       .completes(base::Completion::Node);
   app.add("--plant", "NAME", options->plant,
-          "With --back: take all boards of this plant back to its deployment before, as indurop rollback does");
+          "With --back: take all boards of this plant back to the previous deployment, as indurop rollback does");
   deploy::add_link_options(app, options->link);
   add_reason_option(app, context);
   add_node_option(app, context);
@@ -291,17 +290,18 @@ Action declare_reload(base::Options& app, Context& context) {
 
 const Verb kReloadVerb{
     "reload", "Start and stop", "Exchange the code of a module while the node runs",
-    "The new version is checked, loaded and started next to the running one. Between two runs of the module it\n"
-    "follows with what the module keeps (INDUROP_STATE; PLC programs on their own); no run is left out. If it then\n"
-    "faults, overruns or breaks the guard within the health window, the previous version runs again in the next tick.\n"
-    "With --config the schedule of the whole node follows: what becomes of each module is said, modules that stay\n"
-    "lose no tick, and what only a restart can do is refused.\n"
-    "With --shadow the new version repeats the runs of the running one first, in another process and with the same\n"
-    "inputs, and what it writes is compared.\n"
-    "Exit code 0 if it runs, or was the same version; 1 if it could not be started or exchanged; 4 if it was refused:\n"
-    "it cannot run here, values would be lost, or it differs as a shadow; 5 if it was exchanged and the previous\n"
-    "version runs again; 6 if the node does not run or did not answer. Unless it is 0, the version that ran before\n"
-    "runs.\n"
+    "The new version is checked, loaded and started next to the running one. It replaces the running version\n"
+    "between two runs and continues with what the module keeps (INDUROP_STATE; automatic for PLC programs); no\n"
+    "run is skipped. If it then faults, overruns or violates the guard within the health window, the previous\n"
+    "version runs again in the next tick.\n"
+    "With --config, the schedule of the whole node changes: the verb reports what happens to each module, modules\n"
+    "that stay lose no tick, and a change that requires a restart is rejected.\n"
+    "With --shadow, the new version first repeats the runs of the running one, in another process and with the\n"
+    "same inputs, and its outputs are compared.\n"
+    "Exit code 0 if the new version runs, or was the same version; 1 if it could not be started or exchanged; 4\n"
+    "if it was rejected, because it cannot run here, values would be lost, or it differs as a shadow; 5 if it was\n"
+    "exchanged and the previous version runs again; 6 if the node does not run or did not answer. Unless the exit\n"
+    "code is 0, the version that ran before runs.\n"
     "Examples:\n"
     "  indurop reload press --dry-run\n"
     "  indurop reload press --shadow 5s\n"

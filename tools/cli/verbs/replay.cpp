@@ -31,9 +31,10 @@ Action declare_replay(base::Options& app, Context& /*context*/) {
 
 const Verb kReplayVerb{
     "replay", "Start and stop", "Run a recording again and compare the results",
-    "Each run of the recording is repeated by the real modules, with what it began with and at its time; then what it\n"
-    "leaves is compared bit by bit. Modules that use devices or the network do not run. Exit code 0: all is\n"
-    "equal; 4: the first difference is reported with tick, module, variable, recorded and new value.\n"
+    "The real modules repeat each run of the recording, with its recorded inputs and time; then their outputs are\n"
+    "compared with the recorded ones, bit for bit. Modules that use devices or the network do not run. Exit code\n"
+    "0 if everything is equal, 4 if not: the first difference is reported with tick, module, variable, recorded\n"
+    "and new value.\n"
     "Examples:\n"
     "  indurop run module.xml --duration 60s --record run.mcap\n"
     "  indurop replay run.mcap\n"

@@ -102,8 +102,8 @@ int reset(Context& context, const ResetOptions& options) {
 Action declare_reset(base::Options& app, Context& context) {
   auto options = std::make_shared<ResetOptions>();
   app.flag("--warm", options->warm, "Retained variables keep their values");
-  app.flag("--cold", options->cold, "Retained variables too, and their files are removed");
-  app.flag("-y,--yes", options->yes, "Do not ask");
+  app.flag("--cold", options->cold, "Also reset retained variables, and remove their files");
+  app.flag("-y,--yes", options->yes, "Do not ask for confirmation");
   add_node_option(app, context);
   return [options](Context& c) { return reset(c, *options); };
 }
@@ -112,8 +112,8 @@ Action declare_reset(base::Options& app, Context& context) {
 
 const Verb kResetVerb{
     "reset", "Start and stop", "Set variables back to their initial values",
-    "Works on a running node (its modules see the new values in their next run) and on what a stopped\n"
-    "one left behind.\n"
+    "Works on a running node, whose modules see the new values in their next run, and on the memory that a\n"
+    "stopped node left behind.\n"
     "Examples:\n"
     "  indurop reset\n"
     "  indurop reset --cold --yes\n",

@@ -15,8 +15,8 @@ Action declare_restart(base::Options& app, Context& context) {
 
 const Verb kRestartVerb{
     "restart", "Start and stop", "Stop and start modules, or the node of a board",
-    "The stop() and start() of the module are called while the others keep their ticks; a process module ends and is\n"
-    "launched again. A .so stays loaded. MODULE@BOARD and @BOARD are those of indurop start.\n"
+    "Calls stop() and start() of the module while the others keep their ticks; a process module ends and is\n"
+    "launched again. A .so stays loaded. MODULE@BOARD and @BOARD are as in indurop start.\n"
     "Examples:\n"
     "  indurop restart vision\n"
     "  indurop restart vision@control --keys keys\n",

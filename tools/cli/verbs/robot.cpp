@@ -29,7 +29,7 @@ void add_files(base::Options& app, RobotOptions& options) {
 }
 
 void declare_points(base::Options& app, Context& context, RobotOptions& options) {
-  base::Options& points = app.command("points", "Show the points of its files", [&options] {
+  base::Options& points = app.command("points", "Show the points in the robot's files", [&options] {
     options.chosen = [&options](Context& c) { return show_points(c, options.choice); };
   });
   add_choice(points, context, options);
@@ -42,11 +42,12 @@ void declare_teach(base::Options& app, Context& context, RobotOptions& options) 
     options.chosen = [&options](Context& c) { return teach_point(c, options.choice, options.order); };
   });
   robot::TeachOrder& order = options.order;
-  teach.add("point", "NAME", order.point, "The point; one that is new goes to the file with the most points")
+  teach.add("point", "NAME", order.point, "Name of the point; a new point goes to the file with the most points")
       .required();
-  teach.flag("--joint", order.as_joint, "As joint angles (a new point), whatever it was");
-  teach.flag("--pose", order.as_pose, "As the pose of the present tool's tip, whatever it was");
-  teach.add("--in", "FRAME", order.frame, "As a pose in this work frame");
+  teach.flag("--joint", order.as_joint,
+             "Write it as joint angles (the default for a new point), whatever it was before");
+  teach.flag("--pose", order.as_pose, "Write it as the pose of the current tool's tip, whatever it was before");
+  teach.add("--in", "FRAME", order.frame, "Write it as a pose in this work frame");
   teach.add("--file", "FILE", order.file, "File of a new point").completes(base::Completion::File);
   add_choice(teach, context, options);
   add_files(teach, options);
@@ -64,10 +65,13 @@ void declare_jog(base::Options& app, Context& context, RobotOptions& options) {
     options.chosen = [&options](Context& c) { return jog(c, options.choice, options.hand); };
   });
   Hand& hand = options.hand;
-  command.add("direction", "AXIS+|AXIS-", hand.direction, "J1+ to J8-, or of the tip x+ y+ z+ rx+ ry+ rz+ and with -")
+  command
+      .add("direction", "AXIS+|AXIS-", hand.direction,
+           "Joint J1+ to J8-, or direction of the tip: x+ y+ z+ rx+ ry+ rz+, or with -")
       .required();
-  command.add("--frame", "base|tool|FRAME", hand.frame, "Whose axes x to rz are: a work frame by name (default: base)");
-  command.add("--speed", "PERCENT", hand.percent, "Share of the maximum by hand, 250 mm/s (default: 10)")
+  command.add("--frame", "base|tool|FRAME", hand.frame,
+              "Frame of the directions x to rz; a work frame by its name (default: base)");
+  command.add("--speed", "PERCENT", hand.percent, "Percentage of the maximum speed for jogging, 250 mm/s (default: 10)")
       .range(0.1, 100);
   add_time_option(command, "--for", hand.for_ns, "Stop after this time (default: Ctrl-C)");
   add_choice(command, context, options);
@@ -86,10 +90,11 @@ Action declare_robot(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kRobotVerb{
-    "robot", "Variables", "Show, teach and reload the points of a robot, move it by hand",
-    "teach keeps a point as the file has it, joint angles or a pose in its frame, and the comment behind it; the file\n"
-    "is replaced whole or not at all. The robot knows the point after reload, or when its module starts again.\n"
-    "jog is no safety function: that takes an enabling switch wired to the drives.\n"
+    "robot", "Variables", "Show, teach and reload the points of a robot, and move it by hand",
+    "teach writes a point in the form that it has in the file (joint angles, or a pose in its frame), and keeps\n"
+    "the comment after it; the file is replaced as a whole or not at all. The robot uses the new point after\n"
+    "reload, or when its module starts again. jog is not a safety function: that requires an enabling switch\n"
+    "wired to the drives.\n"
     "Examples:\n"
     "  indurop robot jog z+ --speed 20\n"
     "  indurop robot jog J1- --for 2s\n"

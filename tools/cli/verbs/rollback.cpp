@@ -22,12 +22,12 @@ Action declare_rollback(base::Options& app, Context& context) {
   app.add("--plant", "NAME", options->plant, "Name of the plant (default: the only one)");
   deploy::add_link_options(app, options->link);
   add_time_option(app, "--timeout", options->timeout_ns,
-                  "How long to wait for boards to be heard or to answer (default: 5s)");
+                  "How long to wait for boards to report or answer (default: 5s)");
   add_time_option(app, "--health", options->health_ns,
                   "How long to monitor the deployment before it is committed (default: 3s)");
   app.flag("--allow-missing", options->allow_missing,
-           "Roll back the boards that are heard; the others follow when they appear");
-  app.flag("--restart", options->restart, "Restart all nodes, also where modules could be exchanged while they run");
+           "Roll back the boards that report; the others follow when they appear");
+  app.flag("--restart", options->restart, "Restart all nodes, even if modules could be exchanged while they run");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   return [options](Context& c) { return roll_back(c, *options); };
 }
@@ -36,11 +36,9 @@ Action declare_rollback(base::Options& app, Context& context) {
 
 const Verb kRollbackVerb{
     "rollback", "Plants", "Roll all boards of a plant back to their previous deployment",
-    "This is a deployment like any other, of files the boards still have: modules are exchanged in one tick where\n"
-    "that is possible, with what they keep, it is monitored, and if a board is not healthy, all boards go back to "
-    "what\n"
-    "they run now. A second rollback goes forward again.\n"
-    "The exit codes are those of indurop deploy.\n"
+    "A rollback is a deployment like any other, of files that the boards still have: where possible, modules are\n"
+    "exchanged in one tick, with what they keep. It is monitored, and if a board is not healthy, all boards go\n"
+    "back to what they run now. A second rollback goes forward again. The exit codes are those of indurop deploy.\n"
     "Examples:\n"
     "  indurop rollback\n"
     "  indurop rollback 3f2a91\n",

@@ -81,16 +81,17 @@ Action declare_run(base::Options& app, Context& /*context*/) {
 
 }  // namespace
 
-const Verb kRunVerb{"run", "Start and stop", "Run a configuration, or with --local all boards of a plant",
-                    "Becomes indurop-node: exit code and signals are the node's own. Without FILE it runs module.xml.\n"
-                    "With --detach it goes on in the background and says where its messages are.\n"
-                    "With --local the exit code is that of the first board that failed.\n"
-                    "Examples:\n"
-                    "  indurop run module.xml --duration 10s\n"
-                    "  indurop run module.xml --detach\n"
-                    "  indurop run module.xml --sim --until 1min\n"
-                    "  indurop run plant.xml --local\n"
-                    "  indurop run plant.xml --sim --until 1min --network delay=200us,loss=0.001\n",
-                    &declare_run};
+const Verb kRunVerb{
+    "run", "Start and stop", "Run a configuration, or with --local all boards of a plant",
+    "This command becomes indurop-node: the exit code and the signals are those of the node. Without FILE it runs\n"
+    "module.xml. With --detach it continues in the background and prints where its messages are. With --local the\n"
+    "exit code is that of the first board that failed.\n"
+    "Examples:\n"
+    "  indurop run module.xml --duration 10s\n"
+    "  indurop run module.xml --detach\n"
+    "  indurop run module.xml --sim --until 1min\n"
+    "  indurop run plant.xml --local\n"
+    "  indurop run plant.xml --sim --until 1min --network delay=200us,loss=0.001\n",
+    &declare_run};
 
 }  // namespace indurop::tools

@@ -214,13 +214,13 @@ Action declare_scope(base::Options& app, Context& context) {
       .required()
       .completes(base::Completion::Variable);
   app.add("--trigger", "WHEN", options->order.trigger,
-          "What to wait for: 'NAME rises', 'NAME falls', 'NAME changes', or an expression that becomes true");
+          "Trigger: 'NAME rises', 'NAME falls', 'NAME changes', or an expression that becomes true");
   app.add("--pre", "TICKS", options->order.pre, "Ticks before the trigger (default 100)").range(0, kMaxTicks);
   app.add("--post", "TICKS", options->order.post, "Ticks after it (default 400)").range(0, kMaxTicks);
   app.add("--mode", "MODE", options->mode,
           "single: one picture (default); normal: one for each trigger; auto: also without one")
       .choices({"single", "normal", "auto"});
-  app.flag("--past", options->order.past, "Begin with what the node still has on its tape");
+  app.flag("--past", options->order.past, "Begin with what is still on the node's tape");
   app.add("--save", "FILE", options->files, "Write each picture to FILE: .svg, .csv, .json or .mcap").one_at_a_time();
   app.add("-n,--count", "COUNT", options->count, "Stop after COUNT pictures");
   add_time_option(app, "--timeout", options->timeout_ns, "Stop if there is no trigger within this time");
@@ -232,12 +232,13 @@ Action declare_scope(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kScopeVerb{
-    "scope", "Variables", "See variables in every tick around a trigger",
-    "Shows what variables held at the end of each tick, before and after something happened. The node notes what its\n"
-    "modules write in a ring of shared memory anyway; this reads it there, so no tick is missed and none is "
-    "disturbed.\n"
-    "Expressions know + - * / %, < <= > >= == !=, and or not, brackets, abs sqrt min max; 'NAME = EXPRESSION' gives\n"
-    "one a name. Put blanks around * so that it is no glob. What is compared with an enumeration may be its name.\n"
+    "scope", "Variables", "Show variables in every tick around a trigger",
+    "Shows the values of variables at the end of each tick, before and after a trigger. The node records\n"
+    "everything that its modules write in a ring of shared memory; this verb reads that ring, so no tick is\n"
+    "missed or disturbed.\n"
+    "Expressions support + - * / %, < <= > >= == !=, and or not, brackets, abs sqrt min max; 'NAME = EXPRESSION'\n"
+    "names one. Put spaces around *, or it is a glob. A value that is compared with an enumeration may be one of\n"
+    "its names.\n"
     "Examples:\n"
     "  indurop scope joints --trigger 'motor_on rises' --pre 100 --post 400\n"
     "  indurop scope 'error = abs(target - actual)' --trigger 'state == Moving and not stop' --save run.svg\n"

@@ -19,9 +19,10 @@ Action declare_serve(base::Options& app, Context& /*context*/) {
 
 const Verb kServeVerb{
     "serve", "A running node", "Show boards of this host to browsers and programs, over HTTP and WebSocket",
-    "Becomes indurop-serve and prints its address. Shows running nodes and those that start later, and disturbs none.\n"
-    "Without options it can be reached from this machine only, and nothing can be written. With --write it prints a\n"
-    "token: clients that have it may set, force, start and stop. The interface is described in docs/serve.md.\n"
+    "This command becomes indurop-serve and prints its address. It shows running nodes and those that start\n"
+    "later, without disturbing them. Without options it can be reached only from this machine, and nothing can be\n"
+    "written. With --write it prints a token: clients that have the token may set, force, start and stop. The\n"
+    "interface is described in docs/serve.md.\n"
     "Examples:\n"
     "  indurop serve\n"
     "  indurop serve --write --port 9000\n"

@@ -91,7 +91,7 @@ Action declare_set(base::Options& app, Context& context) {
   add_node_option(app, context);
   add_remote_options(app, context);
   app.add("--board", "NAME", options->board.board.board,
-          "By the agent of this board, whatever it shows; --domain is that of the agents then (default: 76)");
+          "Use the agent of this board, which can set any variable; --domain is then that of the agents (default: 76)");
   return [options](Context& c) { return set(c, *options); };
 }
 
@@ -100,11 +100,10 @@ Action declare_set(base::Options& app, Context& context) {
 const Verb kSetVerb{
     "set", "Variables", "Write variables or parts of them, once",
     "All values are checked before the first is written: type, array bounds, declared range. A declared range is\n"
-    "never overridden. Each NAME=VALUE is one commit; write a struct or array as a whole to change several parts\n"
-    "at once. A module that writes the same variable overwrites the value in its next run; the module\n"
-    "is named then, and indurop force holds the value. With --remote, a board shows a variable and lets it be set "
-    "(external=\"write\"); with --board\n"
-    "its agent sets any, as for indurop force --board.\n"
+    "never overridden. Each NAME=VALUE is one commit; to change several parts at once, write the whole struct or\n"
+    "array. If a module writes the same variable, it overwrites the value in its next run; the message then names\n"
+    "the module. Use indurop force to hold a value. With --remote, only variables that a board offers for writing\n"
+    "(external=\"write\") can be set; with --board, the agent can set any variable, as with indurop force --board.\n"
     "Examples:\n"
     "  indurop set gain 2.5\n"
     "  indurop set 'joints[1].y=-0.5' mode=AUTO\n"

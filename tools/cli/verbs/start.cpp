@@ -15,10 +15,11 @@ Action declare_start(base::Options& app, Context& context) {
 
 const Verb kStartVerb{
     "start", "Start and stop", "Start modules that were stopped or have faulted",
-    "Calls the module's start() in the background and puts it back into its place; a process module is launched.\n"
-    "If the module has faulted, its stop() is called first. The module finds its own memory as it left it.\n"
-    "MODULE@BOARD and @BOARD (its node) go through the agent of a board in the network, signed with --keys if it\n"
-    "has keys. Exit code 1 if start() failed or the command was refused, 6 if board or node did not answer in time.\n"
+    "Calls the module's start() in the background and puts the module back into its place in the schedule; a\n"
+    "process module is launched. If the module has faulted, its stop() is called first. The module's own memory\n"
+    "is as it left it. MODULE@BOARD and @BOARD (its node) use the agent of a board in the network; the command is\n"
+    "signed with --keys if the board has keys. Exit code 1 if start() failed or the command was rejected, 6 if\n"
+    "the board or node did not answer in time.\n"
     "Examples:\n"
     "  indurop start gripper\n"
     "  indurop start gripper@control\n"

@@ -172,7 +172,8 @@ Action declare_status(base::Options& app, Context& context) {
   add_node_option(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
   add_repeat_options(app, *repeat);
-  app.flag("--plant", plant->wanted, "All boards of the network, from any machine; boards not heard are named");
+  app.flag("--plant", plant->wanted,
+           "Show all boards of the network, from any machine; boards that do not report are named");
   deploy::add_link_options(app, board->link);
   add_board_options(app, *board, false);
   add_kept_option(app, *board);
@@ -193,15 +194,15 @@ Action declare_status(base::Options& app, Context& context) {
 
 const Verb kStatusVerb{
     "status", "A running node", "Show the state of the node and its modules",
-    "EXEC is the execution time of run(), JITTER |J_n|: how far a start was from its place on the grid. A state in\n"
-    "brackets is the last one of a node that has ended. On a narrow terminal some columns are left out.\n"
-    "Exit code 0 if the node runs, 6 if it does not (then its last values are shown). With --check it is 4 if the\n"
-    "node runs and something is wrong now (lines 'wrong'): a module is stopped, faulted or has not started, another\n"
-    "board is not there, an alarm is active or not acknowledged. Overruns, lost ticks and faults that are over do\n"
-    "not count.\n"
-    "With --plant it shows the boards of the network instead, as their agents report: 6 if one that belongs to a\n"
-    "plant is missing, with --check 4 if a node does not run or has alarms. With --board it shows the node of one\n"
-    "board.\n"
+    "EXEC is the execution time of run(), JITTER |J_n|: how far a start was from its place on the time grid. A\n"
+    "state in brackets is the last one of a node that has ended. On a narrow terminal some columns are omitted.\n"
+    "Exit code 0 if the node runs, 6 if it does not (its last values are then shown). With --check it is 4 if the\n"
+    "node runs and something is wrong now (lines 'wrong'): a module is stopped, faulted or has not started,\n"
+    "another board is missing, or an alarm is active or not acknowledged. Past overruns, lost ticks and faults\n"
+    "are ignored.\n"
+    "With --plant it shows the boards of the network instead, as their agents report them. The exit code is then\n"
+    "6 if a board that belongs to a plant is missing; with --check it is 4 if a node does not run or has alarms.\n"
+    "With --board it shows the node of one board.\n"
     "Examples:\n"
     "  indurop status\n"
     "  indurop status -w\n"

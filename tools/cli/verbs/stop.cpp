@@ -91,14 +91,15 @@ Action declare_stop(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kStopVerb{
-    "stop", "Start and stop", "Stop a node and wait until it has ended; or modules of it",
-    "stop() of the modules is called and retained values are written. Exit code 6 if the node has not ended in\n"
-    "time; 0 if it did not run anyway.\n"
-    "With MODULE the node goes on without it: the module's place in the schedule stays empty, its stop() is called\n"
-    "in the background, then its fail-safe values are written. It stays stopped until indurop start, or until the\n"
-    "node is started again. MODULE@BOARD and @BOARD (its node) go through the agent of a board in the network, signed\n"
-    "with --keys if it has keys. A board stopped this way starts again by command, with the next deployment, or when\n"
-    "it is switched on again. Exit code 1 if the command was refused, 6 if board or node did not answer in time.\n"
+    "stop", "Start and stop", "Stop a node and wait until it has ended, or stop modules of it",
+    "Calls stop() of the modules and writes retained values. Exit code 6 if the node has not ended in time; 0 if\n"
+    "it was not running.\n"
+    "With MODULE, the node continues without the module: its place in the schedule stays empty, its stop() is\n"
+    "called in the background, then its fail-safe values are written. It stays stopped until indurop start or the\n"
+    "next start of the node. MODULE@BOARD and @BOARD (its node) use the agent of a board in the network; the\n"
+    "command is signed with --keys if the board has keys. A board stopped this way starts again by command, with\n"
+    "the next deployment, or when it is switched on again. Exit code 1 if the command was rejected, 6 if the\n"
+    "board or node did not answer in time.\n"
     "Examples:\n"
     "  indurop stop\n"
     "  indurop stop gripper\n"

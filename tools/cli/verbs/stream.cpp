@@ -205,10 +205,10 @@ Action declare_stream(base::Options& app, Context& context) {
   app.add("names", "GLOB", options->names, "Variables, parts of them, or globs")
       .required()
       .completes(base::Completion::Variable);
-  app.flag("--plotjuggler", options->plotjuggler, "Send JSON over UDP, as PlotJuggler's UDP server takes it");
-  app.flag("--foxglove", options->foxglove, "Wait for Foxglove, which connects by WebSocket");
-  app.add("--to", "HOST:PORT", options->to, "To PlotJuggler here (default 127.0.0.1:9870)");
-  app.add("--port", "PORT", options->port, "Wait for Foxglove here (default 8765)").range(0, kMostPort);
+  app.flag("--plotjuggler", options->plotjuggler, "Send JSON over UDP to PlotJuggler's UDP server");
+  app.flag("--foxglove", options->foxglove, "Wait for Foxglove to connect by WebSocket");
+  app.add("--to", "HOST:PORT", options->to, "Address of PlotJuggler (default 127.0.0.1:9870)");
+  app.add("--port", "PORT", options->port, "Port on which to wait for Foxglove (default 8765)").range(0, kMostPort);
   app.add("--hz", "RATE", options->hz, "Rounds per second (default 50, at most 1000; Foxglove 100)")
       .range(kLeastHz, kMostHz);
   app.add("-n,--count", "COUNT", options->count, "To PlotJuggler: stop after COUNT rounds");
@@ -221,13 +221,12 @@ Action declare_stream(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kStreamVerb{
-    "stream", "Variables", "Send values to a program that draws them",
-    "In PlotJuggler: start the UDP server with JSON, and let it use the field 'timestamp' (seconds since 1970).\n"
+    "stream", "Variables", "Send values to a program that plots them",
+    "In PlotJuggler, start the UDP server with JSON, and let it use the field 'timestamp' (seconds since 1970).\n"
     "Namespaces are objects, so 'knu::Robot::tick' is shown as /knu/Robot/tick.\n"
-    "In Foxglove: 'Open connection', 'Foxglove WebSocket', ws://localhost:8765. Each variable is a topic. It is only "
-    "heard\n"
-    "on this machine; from elsewhere by 'ssh -L 8765:localhost:8765 BOARD'.\n"
-    "What happens in every tick is seen by indurop scope and indurop record.\n"
+    "In Foxglove, choose 'Open connection', 'Foxglove WebSocket', ws://localhost:8765. Each variable is a topic.\n"
+    "The server can be reached only from this machine; from others use 'ssh -L 8765:localhost:8765 BOARD'.\n"
+    "To see what happens in every tick, use indurop scope and indurop record.\n"
     "Examples:\n"
     "  indurop stream 'knu::Robot::*' --plotjuggler\n"
     "  indurop stream joints --plotjuggler --to 192.168.1.5:9870 --hz 100\n"

@@ -122,17 +122,18 @@ int test(Context& context, const TestOptions& options) {
 
 Action declare_test(base::Options& app, Context& /*context*/) {
   auto options = std::make_shared<TestOptions>();
-  app.add("folder", "FOLDER", options->folder, "The project: where its CMakeLists.txt is (default: here)")
+  app.add("folder", "FOLDER", options->folder,
+          "Folder of the project, with its CMakeLists.txt (default: current folder)")
       .completes(base::Completion::Folder);
-  app.add("--build", "FOLDER", options->build, "Where it is built (default: build in the project)")
+  app.add("--build", "FOLDER", options->build, "Build folder (default: build in the project)")
       .completes(base::Completion::Folder);
   app.add("-R,--select", "REGEX", options->select, "Only tests whose names match");
   app.add("--junit", "FILE", options->junit,
-          "Write the results there as JUnit XML (default: tests.xml where it is built)")
+          "Write the results to this file as JUnit XML (default: tests.xml in the build folder)")
       .completes(base::Completion::File);
-  app.add("--lcov", "FILE.info", options->lcov, "Write what was tried of PLC programs for lcov, genhtml and others")
+  app.add("--lcov", "FILE.info", options->lcov, "Write the coverage of PLC programs for lcov, genhtml and others")
       .completes(base::Completion::File);
-  app.add("-j,--jobs", "N", options->jobs, "So many compilers and tests side by side");
+  app.add("-j,--jobs", "N", options->jobs, "Number of compilers and tests to run in parallel");
   return [options](Context& c) { return test(c, *options); };
 }
 
@@ -140,12 +141,11 @@ Action declare_test(base::Options& app, Context& /*context*/) {
 
 const Verb kTestVerb{
     "test", "Before it runs", "Build a project and run its tests in virtual time",
-    "Configures and builds the project with CMake, where that is due, runs its tests with ctest and writes a JUnit "
-    "file.\n"
-    "Tests use <indurop/testing.h> (docs/testing.md): modules, PLC programs and whole plants in virtual time. Of PLC\n"
-    "programs that were added with COVERAGE it shows which lines, rungs and branches the tests tried. Exit code 4: a "
-    "test\n"
-    "failed, or there is none; 1: it could not be built.\n"
+    "Configures and builds the project with CMake if necessary, runs its tests with ctest and writes a JUnit\n"
+    "file. Tests use <indurop/testing.h> (docs/testing.md) to run modules, PLC programs and whole plants in\n"
+    "virtual time. For PLC programs that were added with COVERAGE it shows which lines, rungs and branches the\n"
+    "tests covered.\n"
+    "Exit code 4 if a test failed or there are no tests, 1 if the project could not be built.\n"
     "Examples:\n"
     "  indurop test\n"
     "  indurop test cell --select Stops --junit results.xml\n"

@@ -167,15 +167,15 @@ Action declare_top(base::Options& app, Context& context) {
 
 }  // namespace
 
-const Verb kTopVerb{"top", "A running node", "Follow a node and its modules on the whole screen, the busiest first",
-                    "LOAD% is the share of a core that a module took since the last update, JIT 99% the jitter that 99 "
-                    "of 100 runs keep.\n"
-                    "Keys: q (F10) quits, n (Tab) goes to the next node, s (F6) sorts by load, name, overruns or "
-                    "jitter, the space bar\n"
-                    "pauses, arrows scroll. In a pipe it prints a page of text.\n"
-                    "Examples:\n"
-                    "  indurop top\n"
-                    "  indurop top -d 0.5 --node cell\n",
-                    &declare_top};
+const Verb kTopVerb{
+    "top", "A running node", "Show a node and its modules on the whole screen, the busiest first",
+    "LOAD% is the share of a core that a module used since the last update, JIT 99% the jitter that 99 of 100\n"
+    "runs do not exceed.\n"
+    "Keys: q (F10) quits, n (Tab) goes to the next node, s (F6) sorts by load, name, overruns or jitter, the\n"
+    "space bar pauses, arrows scroll. In a pipe it prints a page of text.\n"
+    "Examples:\n"
+    "  indurop top\n"
+    "  indurop top -d 0.5 --node cell\n",
+    &declare_top};
 
 }  // namespace indurop::tools

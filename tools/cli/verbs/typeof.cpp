@@ -76,11 +76,12 @@ Action declare_typeof(base::Options& app, Context& context) {
 
 }  // namespace
 
-const Verb kTypeofVerb{"typeof", "Variables", "Show what variables are made of",
-                       "Fields with type, unit, range and place; the fields of an array of structs are shown once.\n"
-                       "Examples:\n"
-                       "  indurop typeof joints\n"
-                       "  indurop typeof 'cell::*' --remote\n",
-                       &declare_typeof};
+const Verb kTypeofVerb{
+    "typeof", "Variables", "Show what variables are made of",
+    "Shows fields with type, unit, range and offset; the fields of an array of structs are shown once.\n"
+    "Examples:\n"
+    "  indurop typeof joints\n"
+    "  indurop typeof 'cell::*' --remote\n",
+    &declare_typeof};
 
 }  // namespace indurop::tools

@@ -288,23 +288,25 @@ Action declare_users(base::Options& app, Context& context) {
   };
   const auto add_limits = [&request](base::Options& made) {
     add_pattern_option(made, "--boards", request->boards,
-                       "Boards that the user may change: names and patterns, with commas between them (default: all)");
-    add_pattern_option(made, "--variables", request->variables,
-                       "Variables that the user may change; with it no modules, no locks (default: all)");
+                       "Boards that the user may change: names and patterns, separated by commas (default: all)");
+    add_pattern_option(
+        made, "--variables", request->variables,
+        "Variables that the user may change; a user with this limit cannot change modules or locks (default: all)");
   };
   add_format_option(verb("list", "Show the users and their roles", &list, false), context,
                     {Format::Table, Format::Json, Format::Csv});
   base::Options& adding = verb("add", "Add a user; the password is asked for, or read from standard input", &add, true);
   adding.add("--role", "ROLE", request->role, "What the user may do").choices(role_words()).required();
   add_limits(adding);
-  adding.flag("--no-password", request->no_password, "For who has a certificate, or gets a token");
-  base::Options& changing = verb("role", "Change role and limits of a user", &set_role, true);
+  adding.flag("--no-password", request->no_password, "For a user who has a certificate or gets a token");
+  base::Options& changing = verb("role", "Change the role and limits of a user", &set_role, true);
   changing.add("role", "ROLE", request->role, "What the user may do").choices(role_words()).required();
   add_limits(changing);
   verb("password", "Change the password of a user", &set_password, true);
-  verb("token", "Make a token for a user, a program for example, and show it once", &make_token, true);
+  verb("token", "Create a token for a user, such as a program, and show it once", &make_token, true);
   verb("remove", "Remove a user", &remove, true);
-  base::Options& sending = verb("send", "Send the list to the boards of a plant, for commands from afar", &send, false);
+  base::Options& sending =
+      verb("send", "Send the list to the boards of a plant, for commands from other machines", &send, false);
   sending.add("--plant", "NAME", request->plant, "Name of the plant (default: the only one)");
   deploy::add_link_options(sending, request->link);
   return [chosen](Context& c) { return (*chosen)(c); };
@@ -313,12 +315,13 @@ Action declare_users(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kUsersVerb{
-    "users", "Before it runs", "Manage who may do what by the page and over HTTP",
-    "indurop serve --users FILE lets the users of this file sign in. Each role includes those before it:\n"
-    "look: read. operate: set, load recipes, acknowledge alarms, jog. tune: force, save recipes, shelve\n"
-    "alarms. program: start and stop modules, lock, roll back. administer: end sessions of others.\n"
-    "Boards with keys hold users with a certificate (indurop keys add --user) to the list of indurop users send.\n"
-    "The file holds hashes of passwords and tokens. A change counts from the next request on.\n"
+    "users", "Before it runs", "Manage who may do what on the page and over HTTP",
+    "With indurop serve --users FILE, the users in this file can sign in. Each role includes those before it:\n"
+    "look: read. operate: set, load recipes, acknowledge alarms, jog. tune: force, save recipes, shelve alarms.\n"
+    "program: start and stop modules, lock, roll back. administer: end other users' sessions.\n"
+    "Boards with keys check users with a certificate (indurop keys add --user) against the list that indurop\n"
+    "users send distributes. The file holds hashes of passwords and tokens. A change takes effect with the next\n"
+    "request.\n"
     "Examples:\n"
     "  indurop users add anna --role administer\n"
     "  indurop users add ben --role operate --boards 'press*' --variables 'press::*'\n"

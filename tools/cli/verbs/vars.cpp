@@ -118,7 +118,7 @@ Action declare_vars(base::Options& app, Context& context) {
   app.add("names", "GLOB", options->globs, "Names or globs: * ? [a-z]; without '::' the last part alone may match")
       .completes(base::Completion::Variable);
   app.add("-t,--type", "TYPE", options->type, "Only variables of this type (glob)");
-  app.flag("--names", options->names, "Print nothing but the names");
+  app.flag("--names", options->names, "Print only the names");
   add_node_option(app, context);
   add_remote_options(app, context);
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
@@ -128,9 +128,9 @@ Action declare_vars(base::Options& app, Context& context) {
 }  // namespace
 
 const Verb kVarsVerb{
-    "vars", "Variables", "List shared variables: type, value, unit, who writes and reads them",
-    "Writers and readers come from the module files of the node's configuration and are left out if these cannot be\n"
-    "read (null in JSON).\n"
+    "vars", "Variables", "List shared variables: type, value, unit, writers and readers",
+    "Writers and readers are read from the module files of the node's configuration; they are omitted (null in\n"
+    "JSON) if these files cannot be read.\n"
     "Examples:\n"
     "  indurop vars\n"
     "  indurop vars 'knu::Robot::*' -o json\n"

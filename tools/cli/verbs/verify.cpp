@@ -158,8 +158,8 @@ int verify(Context& context, VerifyOptions& options) {
 
 Action declare_verify(base::Options& app, Context& context) {
   auto options = std::make_shared<VerifyOptions>();
-  app.flag("--plant", options->plant, "All boards of the network, by their agents");
-  app.add("--board", "NAME", options->board, "This board of the network, by its agent");
+  app.flag("--plant", options->plant, "All boards of the network, through their agents");
+  app.add("--board", "NAME", options->board, "Only this board of the network, through its agent");
   deploy::add_link_options(app, options->link);
   add_time_option(app, "--timeout", options->timeout_ns, "How long to wait for agents to answer (default: 60s)");
   add_format_option(app, context, {Format::Table, Format::Json, Format::Csv});
@@ -170,11 +170,12 @@ Action declare_verify(base::Options& app, Context& context) {
 
 const Verb kVerifyVerb{
     "verify", "Plants", "Compare the files of deployments and releases on the boards with their digests",
-    "Reads everything a board keeps of its deployments and of releases of InduRoP: what is committed, its files and\n"
-    "their copies that run. Without --plant or --board it reads those of the boards of this machine and changes\n"
-    "nothing. An agent that is asked also deletes what is damaged of a deployment and restores it from other copies\n"
-    "on the board.\n"
-    "Exit codes: 0 all is as it was deployed, 4 something is not, 6 a board is not there or does not answer.\n"
+    "Reads everything that a board keeps of its deployments and of releases of InduRoP: the committed state, its\n"
+    "files and the copies that run. Without --plant or --board it reads the boards of this machine and changes\n"
+    "nothing. With them, each agent also deletes damaged files of a deployment and restores them from other\n"
+    "copies on the board.\n"
+    "Exit codes: 0 everything is as it was deployed, 4 something is damaged, 6 a board is missing or does not\n"
+    "answer.\n"
     "Examples:\n"
     "  indurop verify\n"
     "  indurop verify --plant\n"

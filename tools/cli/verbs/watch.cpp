@@ -298,9 +298,10 @@ Action declare_watch(base::Options& app, Context& context) {
 
 const Verb kWatchVerb{
     "watch", "Variables", "Follow variables as they change",
-    "On a terminal the values are painted in place, '*' marks what changed since the last round; q quits, space\n"
-    "pauses. In a pipe: one line per changed variable, with -o csv or json one line per round. The node is only read,\n"
-    "never asked. If it stops, the last values stay; the view goes on when the node is back.\n"
+    "On a terminal the values are updated in place, and '*' marks what changed since the last round; q quits,\n"
+    "space pauses. In a pipe it prints one line per changed variable, with -o csv or json one line per round. The\n"
+    "node is only read and does no work for this. If it stops, the last values stay; the view continues when the\n"
+    "node is back.\n"
     "Examples:\n"
     "  indurop watch 'knu::Robot::*'\n"
     "  indurop watch -f arm.watch --hz 2\n"
