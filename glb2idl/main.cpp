@@ -33,14 +33,14 @@ std::string not_empty(const std::string& text) {
 
 // Returns an exit code if the program ends here.
 std::optional<int> parse(int argc, char** argv, Request& request) {
-  base::Options line("glb2idl", "Turn shared variables (.glb) into IDL, a C++ header and a layout table");
+  base::Options line("glb2idl", "Compile shared variables (.glb) to IDL, a C++ header and a layout table");
   line.version("glb2idl (InduRoP) " INDUROP_VERSION);
   line.add("files", "FILE.glb", request.files, "Files to compile; what they include is compiled too");
   line.add("-o,--out-dir", "DIR", request.folder, "Where to write (default: .)").check(not_empty);
   line.add("--depfile", "FILE", request.depfile, "Also write a Makefile rule with all files that were read")
       .check(not_empty);
-  line.add("--ros2", "DIR", request.ros2, "Also write packages of ROS 2 messages into DIR").check(not_empty);
-  line.add("--python", "FILE", request.python, "Also write a Python module with the types of all variables into FILE")
+  line.add("--ros2", "DIR", request.ros2, "Also write ROS 2 message packages to DIR").check(not_empty);
+  line.add("--python", "FILE", request.python, "Also write a Python module with the types of all variables to FILE")
       .check(not_empty);
   line.flag("--check", request.check, "Only report errors, write nothing");
   line.details(

@@ -110,18 +110,19 @@ int main(int argc, char** argv) {
   using namespace indurop;
   tools::Context context;
   fmi::Arguments arguments;
-  base::Options app("indurop-fmu", "Make an FMU of a board or a plant, for co-simulation");
+  base::Options app("indurop-fmu", "Create an FMU of a board or a plant, for co-simulation");
   app.version(INDUROP_VERSION);
   app.add("file", "FILE", arguments.file, "A module.xml, or the manifest of a plant (default: module.xml)")
       .completes(base::Completion::File);
-  app.add("-o,--output", "FILE", arguments.output, "FMU to write (default: NAME.fmu, of the plant or the file)")
+  app.add("-o,--output", "FILE", arguments.output,
+          "FMU to write (default: NAME.fmu, named after the plant or the file)")
       .completes(base::Completion::File);
   app.add("--fmi", "VERSION", arguments.version, "Version of the standard (default 2)").choices({"2", "3"});
   app.add("--inputs", "GLOB", arguments.inputs, "Variables that are inputs (default: those that no module writes)")
       .one_at_a_time();
   app.add("--outputs", "GLOB", arguments.outputs, "Variables that are outputs (default: all that are not inputs)")
       .one_at_a_time();
-  app.add("--also", "FOLDER", arguments.also, "Folder outside of that of FILE from which data may be taken along")
+  app.add("--also", "FOLDER", arguments.also, "Also allow data from this folder, not only from that of FILE")
       .one_at_a_time()
       .completes(base::Completion::Folder);
   app.flag("-q,--quiet", arguments.quiet, "Print warnings and errors only");

@@ -113,13 +113,15 @@ void declare_options(base::Options& app, OptionTexts& texts) {
   file(app.add("--broker-cert", "FILE", texts.to_broker.cert, "Certificate for the broker (PEM)"));
   file(app.add("--broker-key", "FILE", texts.to_broker.key, "Private key of --broker-cert (PEM)"));
   app.add("--broker-user", "NAME", texts.to_broker.user, "User at the broker");
-  file(app.add("--broker-password-file", "FILE", texts.password_file, "Its password: the first line"));
+  file(app.add("--broker-password-file", "FILE", texts.password_file,
+               "File whose first line is the password of the user"));
   app.add("--client-id", "NAME", texts.to_broker.client_id, "Beginning of the client id (default: indurop-HOST)");
   app.flag("--plaintext", texts.plaintext, "Allow mqtt:// to another host, without encryption");
-  app.add("--serve", "URL", texts.serve, "The indurop serve to be shown (default http://127.0.0.1:8080)");
+  app.add("--serve", "URL", texts.serve,
+          "The indurop serve whose boards are published (default http://127.0.0.1:8080)");
   file(app.add("--serve-ca", "FILE", texts.serve_ca, "Authority of its certificate (PEM)"));
   file(app.add("--token-file", "FILE", texts.token_file,
-               "Lines 'NAME TOKEN': the first one reads, all of them may command with their roles"));
+               "Lines 'NAME TOKEN': the first is used for reading, all may send commands within their roles"));
   app.add("--variables", "GLOB", texts.variables, "Publish these variables or parts of them (default: all)")
       .one_at_a_time()
       .completes(base::Completion::Variable);
@@ -134,9 +136,9 @@ void declare_options(base::Options& app, OptionTexts& texts) {
   app.add("--primary-host", "NAME", texts.sparkplug.primary_host, "Keep data while this host is offline");
   app.add("--commander", "USER", texts.commander, "User of --token-file in whose name Sparkplug commands are executed");
   app.add("--store", "MB", texts.store_mb,
-          "Keep at most so much Sparkplug data for a broker that is away (default 200)")
+          "Maximum Sparkplug data to keep while the broker is unreachable (default 200)")
       .range(0, kMostMb);
-  app.add("--state", "DIR", texts.state, "Folder for what is kept (default: mqtt in the state folder)")
+  app.add("--state", "DIR", texts.state, "Folder for stored data (default: mqtt in the state folder)")
       .completes(base::Completion::Folder);
   app.flag("-q,--quiet", texts.quiet, "Print warnings and errors only");
 }

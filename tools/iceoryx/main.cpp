@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
   int hz = 100;
   app.add("names", "GLOB", names, "Variables, whole; default all").completes(base::Completion::Variable);
   tools::add_node_option(app, context);
-  app.add("--hz", "RATE", hz, "Look for changes so often per second (default 100)").range(1, 1000);
+  app.add("--hz", "RATE", hz, "How often per second to look for changes (default 100)").range(1, 1000);
   app.details(iceoryx::kDetails);
   app.exit_codes({kOk, kFailed, kUsage, kUnreachable, kInterrupted, kTerminated});
   if (const auto code = app.parse_program(argc, argv)) {

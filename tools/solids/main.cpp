@@ -156,12 +156,13 @@ int main(int argc, char** argv) {
   solids::Options options;
   base::Options app("indurop-solids", "Put boxes, cylinders and balls around the meshes of a robot");
   app.version(INDUROP_VERSION);
-  app.add("file", "ARM.urdf", options.urdf, "What describes the robot").required().completes(base::Completion::File);
-  app.add("to", "NEW.urdf", options.output, "Where to write it with solids in place of meshes")
+  app.add("file", "ARM.urdf", options.urdf, "Description of the robot").required().completes(base::Completion::File);
+  app.add("to", "NEW.urdf", options.output, "File to write, with solids instead of meshes")
       .completes(base::Completion::File);
-  app.add("--within", "MM", options.within_mm, "Reach at most that far beyond a mesh (default: 20)").range(1, 1000);
-  app.add("--most", "N", options.most, "But take no more solids for a mesh (default: 4)").range(1, 16);
-  app.add("--package", "NAME=FOLDER", options.packages, "Where package://NAME/ is, if not around the file")
+  app.add("--within", "MM", options.within_mm, "Maximum distance by which solids may exceed a mesh (default: 20)")
+      .range(1, 1000);
+  app.add("--most", "N", options.most, "Maximum number of solids per mesh (default: 4)").range(1, 16);
+  app.add("--package", "NAME=FOLDER", options.packages, "Folder of package://NAME/, if it does not contain the file")
       .check(solids::mistake_of_package)
       .one_at_a_time();
   app.add("--svg", "FILE", options.svg, "A picture of the meshes and their solids").completes(base::Completion::File);

@@ -234,11 +234,11 @@ int main(int argc, char** argv) {
   io::ecsim::Setup setup;
   base::Options app("indurop-ecsim", "Simulate EtherCAT slaves at a network interface");
   app.version(INDUROP_VERSION);
-  app.add("interface", "INTERFACE", setup.interface, "Where frames of the master come in").required();
+  app.add("interface", "INTERFACE", setup.interface, "Interface on which frames of the master arrive").required();
   app.add("slaves", "SLAVE", setup.slaves, "The slaves, in the order of the cable")
       .required()
       .completes(base::Completion::File);
-  app.add("--ring", "INTERFACE", setup.ring, "Where the other end of the cable is: a ring");
+  app.add("--ring", "INTERFACE", setup.ring, "Interface at the other end of the cable, for a ring");
   app.add("--script", "FILE", setup.script, "Faults that happen at their time").completes(base::Completion::File);
   app.add("--pcap", "FILE", setup.pcap, "Write all frames, for Wireshark").completes(base::Completion::File);
   app.details(io::ecsim::kDetails + io::ecsim::script_help());
