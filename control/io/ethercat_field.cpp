@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "control/io/ethercat/master/block.h"
 #include "control/io/number.h"
 
 namespace indurop::io {
@@ -13,8 +14,8 @@ namespace {
 using Kind = EthercatField::Kind;
 
 // How CoE numbers the types that are not unsigned.
-Kind kind_of(const ethercat::PdoEntry& entry) noexcept {
-  switch (entry.type) {
+Kind kind_of(std::uint8_t type) noexcept {
+  switch (type) {
     case 0x02:  // INTEGER8
     case 0x03:
     case 0x04:
@@ -72,25 +73,12 @@ void store_bits(const EthercatField& field, std::uint64_t value, std::span<std::
 }  // namespace
 
 std::optional<EthercatField> find_field(const std::vector<ethercat::Pdo>& pdos, config::IoObject object) {
-  // The bytes of SyncManagers follow each other in their order, and in each of them its PDOs.
-  std::size_t start = 0;
-  for (std::uint8_t manager = 0; manager < 0xFF; ++manager) {
-    std::size_t bit = start;
-    for (const ethercat::Pdo& pdo : pdos) {
-      for (const ethercat::PdoEntry& entry : pdo.entries) {
-        if (pdo.sync_manager != manager) {
-          continue;
-        }
-        const EthercatField field{bit, entry.bits, kind_of(entry)};
-        if (entry.index == object.index && entry.subindex == object.subindex) {
-          return is_number(field) ? std::optional(field) : std::nullopt;
-        }
-        bit += entry.bits;
-      }
-    }
-    start = (bit + 7) / 8 * 8;
+  const auto place = ethercat::find_block(pdos, {object.index, object.subindex});
+  if (!place) {
+    return std::nullopt;
   }
-  return std::nullopt;
+  const EthercatField field{place->bit, place->bits, kind_of(place->type)};
+  return is_number(field) ? std::optional(field) : std::nullopt;
 }
 
 Number read_field(const EthercatField& field, std::span<const std::uint8_t> from) noexcept {

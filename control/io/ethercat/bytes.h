@@ -33,7 +33,11 @@ constexpr void store(std::span<std::uint8_t> bytes, std::size_t at, T value) noe
 // Bits count from the lowest one of the first byte.
 inline void copy_bits(Bytes from, std::uint64_t from_bit, std::span<std::uint8_t> to, std::uint64_t to_bit,
                       std::uint64_t count) noexcept {
-  for (std::uint64_t bit = 0; bit < count; ++bit) {
+  const std::uint64_t whole = from_bit % 8 == 0 && to_bit % 8 == 0 ? count / 8 : 0;
+  for (std::uint64_t byte = 0; byte < whole; ++byte) {
+    to[to_bit / 8 + byte] = from[from_bit / 8 + byte];
+  }
+  for (std::uint64_t bit = 8 * whole; bit < count; ++bit) {
     const unsigned value = static_cast<unsigned>(from[(from_bit + bit) / 8]) >> ((from_bit + bit) % 8) & 1U;
     const unsigned shift = (to_bit + bit) % 8;
     std::uint8_t& byte = to[(to_bit + bit) / 8];

@@ -47,6 +47,11 @@ std::string words(const Event& event) {
     case Problem::LostLink:
       return fmt::format("port {} lost its link {} times within a second; check the cable and the plug there",
                          event.detail >> 16U, event.detail & 0xFFFFU);
+    case Problem::CopyBegun:
+      return fmt::format("gets what is copied from slave {}", event.detail);
+    case Problem::CopyLost:
+      return fmt::format("slave {} has no valid bytes to copy to it; these outputs have their fail-safe values",
+                         event.detail);
     case Problem::ClockNotInStep:
       return fmt::format("its clock does not follow the reference clock: {} ns ahead of it",
                          static_cast<std::int32_t>(event.detail));

@@ -38,8 +38,9 @@ bool share_an_object(const Pdo& a, const Pdo& b) {
 // Maps one direction of a slave.
 class Mapper {
  public:
-  Mapper(const Sii& sii, std::vector<Pdo>& pdos, SyncManagerUse use)
-      : sii_(sii), pdos_(pdos), use_(use), first_manager_(first_manager(sii, use)) {}
+  // `whole`: PDOs that have to be assigned as they are.
+  Mapper(const Sii& sii, std::vector<Pdo>& pdos, SyncManagerUse use, std::span<const std::uint16_t> whole)
+      : sii_(sii), pdos_(pdos), use_(use), first_manager_(first_manager(sii, use)), whole_(whole) {}
 
   Failure map(Wanted wanted) {
     std::vector<Pdo*> assigned;
@@ -49,18 +50,19 @@ class Mapper {
       }
     }
     const WantedObject* const missing = first_missing(assigned, wanted);
-    if (missing == nullptr) {
+    const Pdo* const unassigned = first_unassigned();
+    if (missing == nullptr && unassigned == nullptr) {
       return std::nullopt;
     }
     if (!may_assign(sii_) || first_manager_ == kNotAssigned) {
-      return failure(*missing, is_anywhere(*missing) ? "a PDO that is not assigned has it, and the slave does not let "
-                                                       "its master assign PDOs"
-                                                     : kNowhere);
+      return missing == nullptr
+                 ? failure({unassigned->index}, "the slave does not let its master assign this PDO")
+                 : failure(*missing, is_anywhere(*missing) ? "a PDO that is not assigned has it, and the slave does "
+                                                             "not let its master assign PDOs"
+                                                           : kNowhere);
     }
-    for (Pdo& pdo : pdos_) {
-      if (is_mandatory(pdo)) {
-        chosen_.push_back(&pdo);
-      }
+    if (auto unchosen = choose_first()) {
+      return unchosen;
     }
     for (std::size_t most = chosen_.size(); most <= pdos_.size() && tries_ > 0; ++most) {
       if (choose(wanted, most)) {
@@ -76,6 +78,36 @@ class Mapper {
 
   Failure failure(const WantedObject& object, std::string reason) const {
     return Unmapped{object, use_ == SyncManagerUse::Outputs, std::move(reason)};
+  }
+
+  [[nodiscard]] bool is_whole(const Pdo& pdo) const {
+    return std::find(whole_.begin(), whole_.end(), pdo.index) != whole_.end();
+  }
+
+  [[nodiscard]] const Pdo* first_unassigned() const {
+    const auto found = std::find_if(pdos_.begin(), pdos_.end(), [this](const Pdo& pdo) {
+      return is_whole(pdo) && pdo.sync_manager == kNotAssigned;
+    });
+    return found == pdos_.end() ? nullptr : &*found;
+  }
+
+  // Chooses what is assigned in any case.
+  Failure choose_first() {
+    for (Pdo& pdo : pdos_) {
+      if (is_mandatory(pdo)) {
+        chosen_.push_back(&pdo);
+      }
+    }
+    for (Pdo& pdo : pdos_) {
+      if (!is_whole(pdo) || is_mandatory(pdo)) {
+        continue;
+      }
+      if (!goes_with_chosen(pdo)) {
+        return failure({pdo.index}, "this PDO may not be assigned together with the others");
+      }
+      chosen_.push_back(&pdo);
+    }
+    return std::nullopt;
   }
 
   static const WantedObject* first_missing(const std::vector<Pdo*>& pdos, Wanted wanted) {
@@ -131,7 +163,7 @@ class Mapper {
     if (free.empty()) {
       return refuse(wanted);
     }
-    std::erase_if(chosen_, [this](const Pdo* pdo) { return may_fill(sii_, *pdo); });
+    std::erase_if(chosen_, [this](const Pdo* pdo) { return may_fill(sii_, *pdo) && !is_whole(*pdo); });
     Pdo all;
     for (const WantedObject& object : wanted) {
       if (has(all, object) || first_missing(chosen_, {&object, 1}) == nullptr) {
@@ -178,7 +210,7 @@ class Mapper {
   [[nodiscard]] std::vector<Pdo*> free_pdos() const {
     std::vector<Pdo*> free;
     for (Pdo& pdo : pdos_) {
-      if (may_fill(sii_, pdo)) {
+      if (may_fill(sii_, pdo) && !is_whole(pdo)) {
         free.push_back(&pdo);
       }
     }
@@ -201,17 +233,18 @@ class Mapper {
   std::vector<Pdo>& pdos_;
   SyncManagerUse use_;
   std::uint8_t first_manager_;
+  std::span<const std::uint16_t> whole_;
   std::vector<Pdo*> chosen_;
   int tries_ = kMaxTries;
 };
 
 }  // namespace
 
-Result<Sii, Unmapped> map_objects(Sii sii, Wanted outputs, Wanted inputs) {
-  if (auto failure = Mapper(sii, sii.outputs, SyncManagerUse::Outputs).map(outputs)) {
+Result<Sii, Unmapped> map_objects(Sii sii, Wanted outputs, Wanted inputs, std::span<const std::uint16_t> pdos) {
+  if (auto failure = Mapper(sii, sii.outputs, SyncManagerUse::Outputs, pdos).map(outputs)) {
     return std::move(*failure);
   }
-  if (auto failure = Mapper(sii, sii.inputs, SyncManagerUse::Inputs).map(inputs)) {
+  if (auto failure = Mapper(sii, sii.inputs, SyncManagerUse::Inputs, pdos).map(inputs)) {
     return std::move(*failure);
   }
   return sii;

@@ -22,7 +22,7 @@ struct WantedObject {
 };
 
 struct Unmapped {
-  WantedObject object;
+  WantedObject object;  // its index can be that of a PDO
   bool output = false;
   std::string reason;  // "no PDO of the slave has it, and what they contain is fixed"
 };
@@ -37,7 +37,9 @@ constexpr bool may_fill(const Sii& sii, const Pdo& pdo) noexcept {
 
 // Returns the EEPROM with the PDOs that have all of these objects assigned, and the others not: those that are assigned
 // at first, if they have them; else the mandatory ones and as few others as are needed, never two with the same object;
-// else those that may be filled, with the objects in their order. Errors: the first object that cannot be had.
-Result<Sii, Unmapped> map_objects(Sii sii, std::span<const WantedObject> outputs, std::span<const WantedObject> inputs);
+// else those that may be filled, with the objects in their order. `pdos`, which the slave has, are assigned in any
+// case, with what they contain at first. Errors: the first object, or PDO, that cannot be had.
+Result<Sii, Unmapped> map_objects(Sii sii, std::span<const WantedObject> outputs, std::span<const WantedObject> inputs,
+                                  std::span<const std::uint16_t> pdos = {});
 
 }  // namespace indurop::io::ethercat

@@ -60,6 +60,8 @@ enum class Problem : std::uint8_t {
   NoClock,
   BrokenFrames,   // number of the port * 65536 + how many in the last second
   LostLink,       // the same of its link
+  CopyBegun,      // gets bits of another slave: the place of that one
+  CopyLost,       // that one has no valid ones any more: its place
   ClockNotInStep  // how far it is ahead of the reference, ns, as a signed number
 };
 

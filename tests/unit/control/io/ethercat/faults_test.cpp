@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "random_fault.h"
 #include "simulated_plant.h"
 
 namespace indurop::io::ethercat {
@@ -112,43 +113,6 @@ class FaultyPlant {
 
   std::size_t tick_ = 0;
 };
-
-Fault random_fault(std::mt19937& random, std::size_t slaves, FaultKind kind, Time at) {
-  Fault fault;
-  fault.kind = kind;
-  fault.at = at;
-  fault.slave = random() % slaves;
-  fault.duration = std::chrono::milliseconds(1 + random() % 5);
-  switch (kind) {
-    case FaultKind::FramesLate:
-      fault.value = static_cast<std::uint32_t>(1'200'000 + random() % 3'000'000);
-      break;
-    case FaultKind::PowerOff:
-    case FaultKind::CableCut:
-      fault.duration = std::chrono::milliseconds(10 + random() % 400);
-      break;
-    case FaultKind::EepromBusy:
-    case FaultKind::OtherIdentity:
-      fault.duration = std::chrono::milliseconds(300 + random() % 300);
-      break;
-    case FaultKind::StateRefused:
-    case FaultKind::StateLost:
-      fault.value = 0x8001U + static_cast<std::uint32_t>(random() % 100);
-      break;
-    case FaultKind::SdoAborted:
-      fault.value = kAbortState;
-      break;
-    case FaultKind::ClockJumps:
-      fault.value = static_cast<std::uint32_t>(120'000 + random() % 800'000);
-      break;
-    case FaultKind::Emergency:
-      fault.value = static_cast<std::uint32_t>(0x2310 + random() % 16);
-      break;
-    default:
-      break;
-  }
-  return fault;
-}
 
 TEST(Faults, Each_kind_is_named_and_everything_recovers) {
   std::mt19937 random(3);

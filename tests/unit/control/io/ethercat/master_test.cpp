@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "control/io/ethercat/master/copies.h"
 #include "simulated_plant.h"
 #include "tests/unit/allocations.h"
 
@@ -242,6 +243,7 @@ TEST(Master, The_exchange_allocates_nothing) {
   }
   Counted cable(bus);
   Master sut(cable, drive_plans(kDrives), kTick);
+  Copies copies({{kDrives - 1, 3, 0, 5, 40, kTick}}, sut);
   std::array<std::uint8_t, 200> room{};
   SdoTransfer transfer;
   transfer.index = 0x1008;
@@ -256,9 +258,11 @@ TEST(Master, The_exchange_allocates_nothing) {
       now += kTick;
       bus.advance(now);
       const auto before = g_allocations.load() - cable.allocated();
-      sut.cycle(now);
+      sut.receive(now);
+      copies.run(sut, now);
+      sut.send(now);
       Event event;
-      while (sut.next_event(event)) {
+      while (sut.next_event(event) || copies.next_event(event)) {
       }
       is_started = is_started || sut.start(3, transfer, now);
       allocated += g_allocations.load() - cable.allocated() - before;
