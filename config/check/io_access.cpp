@@ -106,13 +106,14 @@ IoAccess io_access_of(const Module& module, CheckContext& context) {
   ReadIo read = read_io_config(*file);
   const auto devices = bind_io(read.config, context.result.schema, read.diagnostics);
   context.result.diagnostics.insert(context.result.diagnostics.end(), read.diagnostics.begin(), read.diagnostics.end());
+  std::vector<const BoundDevice*> described;
   for (const BoundDevice& device : devices) {
     if (word != "outputs") {
       check_csv(device, context);
     }
     const std::filesystem::path& description = device.device.slave.description;
     if (!description.empty() && (context.options.machine || std::filesystem::exists(description))) {
-      check_mapping(device, *file, context.result.diagnostics);
+      described.push_back(&device);
     }
     add(device.quality, access.writes);
     add(device.errors, access.writes);
@@ -126,6 +127,7 @@ IoAccess io_access_of(const Module& module, CheckContext& context) {
       add(bound.quality, access.writes);
     }
   }
+  check_mappings(described, *file, context.result.diagnostics);
   return access;
 }
 

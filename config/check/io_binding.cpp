@@ -40,6 +40,7 @@ class Binder {
       add_struct(device.axis.in, device.axis.in_place, false, bound);
       add_struct(device.axis.out, device.axis.out_place, true, bound);
     }
+    check_copies(bound);
     return bound;
   }
 
@@ -140,6 +141,21 @@ class Binder {
     if (found == 0) {
       report_.error(place, fmt::format("{} is {}; it must be a struct with fields named {}", base::in_quotes(name),
                                        schema::display_name(whole->type), base::enumerate(objects)));
+    }
+  }
+
+  // An output that a <copy> writes, too. What ranges and PDOs contain only their slave knows.
+  void check_copies(const BoundDevice& bound) {
+    for (const IoCopy& copy : bound.device.slave.copies) {
+      const IoObject& target = copy.target.first;
+      const auto point = std::find_if(bound.points.begin(), bound.points.end(), [&target](const BoundPoint& other) {
+        const IoObject& object = other.point.object;
+        return other.point.output && object.index == target.index && object.subindex == target.subindex;
+      });
+      if (point != bound.points.end()) {
+        report_.error(copy.target.place, fmt::format("to: {} is written by the output in line {} already; remove one",
+                                                     base::in_quotes(copy.target.at), point->point.place.line));
+      }
     }
   }
 

@@ -123,6 +123,27 @@ struct IoObjectValue {
   std::vector<std::uint8_t> bytes;  // the low one first
 };
 
+// A part of a slave's process data, by the names of what is in it.
+struct IoBlock {
+  // Range: all that one PDO has from one object to another one.
+  enum class Kind { Object, Range, Pdo };
+  Kind kind = Kind::Object;
+  std::string at;  // as written in the file
+  IoObject first;  // Pdo: its index
+  IoObject last;   // Range
+  base::SourcePlace place;
+};
+
+// What goes from the inputs of another slave to outputs of this one, with no program between them.
+struct IoCopy {
+  std::string from;  // the device
+  IoBlock source;
+  IoBlock target;
+  base::Nanos hold{100'000'000};  // how long the target keeps the last bits of a source that has no valid ones
+  base::SourcePlace place;
+  base::SourcePlace from_place;
+};
+
 // Pulses of the slave's clock (SYNC0, SYNC1), at which it takes outputs and reads inputs.
 struct IoSync {
   std::uint16_t activate = 0;  // AssignActivate of the device's description; 0: none
@@ -141,6 +162,8 @@ struct IoSlave {
   base::Nanos cycle{0};               // from one exchange to the next; 0: each run of the module
   std::vector<IoObjectValue> values;  // in the order in which they are set
   IoSync sync;
+  std::vector<IoCopy> copies;          // to this slave
+  std::vector<IoBlock> copied;         // of its inputs, to other slaves
   std::filesystem::path description;   // the maker's file (ESI); empty: none
   std::string description_as_written;  // relative names start at the folder of ioconfig.xml
   base::SourcePlace description_place;

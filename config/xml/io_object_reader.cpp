@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -48,6 +49,17 @@ bool read_io_object(const std::string& text, IoObject& object) {
     object = known.object.index == object.index && object.subindex == 0 ? known.object : object;
   }
   return index && *index != 0 && subindex;
+}
+
+bool read_io_object_name(const std::string& text, bool output, IoObject& object) {
+  const auto* const known = std::find_if(kAxisObjects.begin(), kAxisObjects.end(), [&](const AxisObject& axis) {
+    return axis.output == output && axis.object.index != 0 && axis.name == text;
+  });
+  if (known == kAxisObjects.end()) {
+    return read_io_object(text, object);
+  }
+  object = known->object;
+  return true;
 }
 
 void read_io_type(Attributes& attributes, IoObject& object) {

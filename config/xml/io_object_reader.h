@@ -14,6 +14,8 @@ namespace indurop::config {
 
 // Reads an index and a subindex of an object, as manuals write them: 6064, 7000:1. False: it is none.
 bool read_io_object(const std::string& text, IoObject& object);
+// The same, or the name that such an object of a drive has: position.
+bool read_io_object_name(const std::string& text, bool output, IoObject& object);
 // Reads `type` of a point, which says how long the object is.
 void read_io_type(Attributes& attributes, IoObject& object);
 

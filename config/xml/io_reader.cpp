@@ -12,6 +12,7 @@
 #include "config/xml/attributes.h"
 #include "config/xml/document.h"
 #include "config/xml/element_rules.h"
+#include "config/xml/io_copy_reader.h"
 #include "config/xml/io_object_reader.h"
 #include "config/xml/io_point_reader.h"
 #include "config/xml/io_simulation_reader.h"
@@ -75,10 +76,12 @@ class DeviceReader {
     check_no_text(element_, report_);
     const bool is_slave = device_.driver == IoDriver::Ethercat;
     for (const base::Element& child : element_.children) {
-      const bool known = is_slave ? is_known(child, element_, {"input", "output", "set", "sync"}, report_)
+      const bool known = is_slave ? is_known(child, element_, {"input", "output", "copy", "set", "sync"}, report_)
                                   : is_known(child, element_, {"input", "output"}, report_);
       if (known && child.name == "set") {
         read_io_value(child, device_, report_);
+      } else if (known && child.name == "copy") {
+        read_io_copy(child, device_, report_);
       } else if (known && child.name == "sync") {
         read_io_sync(child, device_, report_);
       } else if (known) {
@@ -303,9 +306,9 @@ const char* example_points(IoDriver driver) {
   return is_modbus(driver) ? R"(<input variable="..." at="holding:0"/>)" : R"(<input variable="..." at="column"/>)";
 }
 
-void check_device(const IoDevice& device, const base::Element& element, base::Diagnostics& report) {
-  const bool axis_structs = !device.axis.in.empty() || !device.axis.out.empty();
-  if (element.children.empty() && !axis_structs) {
+// A slave from which others copy needs no points of its own.
+void check_points(const IoDevice& device, const base::Element& element, base::Diagnostics& report) {
+  if (element.children.empty() && device.axis.in.empty() && device.axis.out.empty() && device.slave.copied.empty()) {
     report.error(element.place, fmt::format("this device has no points; add {}", example_points(device.driver)));
   }
 }
@@ -337,6 +340,7 @@ void interpret_io(const base::Element& root, IoConfig& config, base::Diagnostics
   check_no_text(root, report);
   const std::filesystem::path folder = config.file.parent_path();
   std::map<std::string, int> lines;
+  std::vector<const base::Element*> elements;  // of the devices
   for (const base::Element& child : root.children) {
     if (!is_known(child, root, {"device", "simulation"}, report)) {
       continue;
@@ -349,7 +353,7 @@ void interpret_io(const base::Element& root, IoConfig& config, base::Diagnostics
     if (!device) {
       continue;
     }
-    check_device(*device, child, report);
+    elements.push_back(&child);
     check_slave(*device, config, report);
     const auto [first, is_new] = lines.try_emplace(device->name, device->place.line);
     if (!is_new && !device->name.empty()) {
@@ -359,6 +363,10 @@ void interpret_io(const base::Element& root, IoConfig& config, base::Diagnostics
     config.devices.push_back(std::move(*device));
   }
   check_io_simulations(config, report);
+  link_io_copies(config, report);
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    check_points(config.devices[i], *elements[i], report);
+  }
   if (root.children.empty()) {
     report.error(root.place, "<ioconfig> has no <device>; add one per field device");
   }

@@ -62,11 +62,14 @@ std::vector<base::Diagnostic> Dispatcher::add(const config::BoundDevice& bound, 
     (b.point.output ? outputs : inputs).push_back(b);
     (b.point.output ? output_points : input_points).push_back(b.point);
   }
-  if (inputs.empty() && outputs.empty()) {
+  const config::IoSlave& slave = bound.device.slave;
+  const bool copies = !slave.copies.empty() || !slave.copied.empty();
+  if (inputs.empty() && outputs.empty() && !copies) {
     return {};
   }
   const bool shareable = bound.device.driver == config::IoDriver::ModbusTcp;
-  if (!shareable && outputs.size() + inputs.size() != bound.points.size()) {
+  const bool is_split = outputs.size() + inputs.size() != bound.points.size() || (copies && phase != Phase::Both);
+  if (!shareable && is_split) {
     return {{base::Diagnostic::Severity::Error, file.string(), bound.device.place,
              fmt::format("the inputs and outputs of {} device {} cannot be split among two modules; give the module "
                          "that runs it a file of its own, without phase",

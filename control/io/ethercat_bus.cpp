@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "config/check/io_mapping.h"
-#include "control/io/ethercat/master/mapping.h"
+#include "control/io/ethercat_copies.h"
 #include "store/runtime/host.h"
 
 namespace indurop::io {
@@ -51,16 +51,15 @@ void add_excludes(const Excludes& excludes, ethercat::Sii& sii) {
   }
 }
 
-// Which point cannot be exchanged, and why.
-std::string refusal_of(const EthercatMember& member, const ethercat::Unmapped& unmapped, const ethercat::Sii& sii) {
-  const auto& points = unmapped.output ? member.outputs : member.inputs;
-  const auto point = std::find_if(points.begin(), points.end(), [&unmapped](const config::IoPoint& other) {
-    return other.object.index == unmapped.object.index && other.object.subindex == unmapped.object.subindex;
-  });
-  return fmt::format("{} ({}), device {}: {} {} ({}) cannot be exchanged: {}; its {} are {}",
-                     config::describe(member.slave), sii.name, member.device, unmapped.output ? "output" : "input",
-                     point->at, name_of_object(point->object), unmapped.reason, unmapped.output ? "outputs" : "inputs",
-                     objects_of(unmapped.output ? sii.outputs : sii.inputs));
+// Which point, or end of a copy, cannot be exchanged, and why.
+std::string refusal_of(const EthercatMember& member, const config::IoBlock& block,
+                       const config::Unexchangeable& problem, const ethercat::Sii& sii) {
+  const std::string object =
+      block.kind == config::IoBlock::Kind::Object ? fmt::format(" ({})", name_of_object(block.first)) : "";
+  return fmt::format("{} ({}), device {}: {} {}{} cannot be exchanged: {}; its {} are {}",
+                     config::describe(member.slave), sii.name, member.device, problem.output ? "output" : "input",
+                     block.at, object, problem.reason, problem.output ? "outputs" : "inputs",
+                     objects_of(problem.output ? sii.outputs : sii.inputs));
 }
 
 }  // namespace
@@ -153,14 +152,16 @@ void EthercatBus::end_turn() noexcept {
   if (turn_ != 0 || running_ == nullptr) {
     return;
   }
-  running_->master.send(wire_->now());
+  const ethercat::Clock now = wire_->now();
+  running_->copies.run(running_->master, now);
+  running_->master.send(now);
   losses_.set(running_->master.counters());
   if (running_->master.clocks().reference()) {
     irp::shift_ticks(std::chrono::nanoseconds(running_->master.clocks().tick_correction()));
     report_pulse(running_->master);
   }
   ethercat::Event event;
-  while (running_->master.next_event(event)) {
+  while (running_->master.next_event(event) || running_->copies.next_event(event)) {
     events_.push(event);
   }
   if (wires_.is_simulated) {
@@ -283,6 +284,10 @@ std::string EthercatBus::prepare() {
   if (std::string wrong = map(*found, *places); !wrong.empty()) {
     return wrong;
   }
+  auto copies = find_copies(members_, *found, *places);
+  if (!copies) {
+    return copies.error();
+  }
   std::vector<ethercat::SlavePlan> plans;
   std::uint32_t logical = kFirstAddress;
   for (const ethercat::FoundSlave& slave : *found) {
@@ -306,6 +311,7 @@ std::string EthercatBus::prepare() {
   wire_ = std::move(*wire);
   owned_ = std::make_unique<Running>(wire_->link(), std::move(plans), period_, std::move(*places));
   make_fields(*found, *owned_);
+  owned_->copies = ethercat::Copies(std::move(*copies), owned_->master);
   return {};
 }
 
@@ -335,16 +341,18 @@ std::string EthercatBus::check(const std::vector<ethercat::FoundSlave>& found) c
   return {};
 }
 
-// Chooses the process data of each slave by the points of its device. Returns what is wrong.
+// Chooses the process data of each slave by the points and copies of its device. Returns what is wrong.
 std::string EthercatBus::map(std::vector<ethercat::FoundSlave>& found, const EthercatPlaces& places) const {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const EthercatMember& member = members_[i];
     ethercat::Sii& sii = found[places[i]].sii;
     add_excludes(member.excludes, sii);
-    auto mapped =
-        ethercat::map_objects(sii, config::wanted_objects(member.outputs), config::wanted_objects(member.inputs));
+    const auto outputs = config::wanted_outputs(member.outputs, member.slave);
+    const auto inputs = config::wanted_inputs(member.inputs, member.slave);
+    auto mapped = config::map_blocks(sii, outputs, inputs);
     if (!mapped) {
-      return refusal_of(member, mapped.error(), sii);
+      const config::Unexchangeable& problem = mapped.error();
+      return refusal_of(member, (problem.output ? outputs : inputs)[problem.block], problem, sii);
     }
     sii = std::move(*mapped);
   }

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "control/io/ethercat/master/copies.h"
 #include "control/io/ethercat/master/master.h"
 #include "control/io/ethercat/master/scan.h"
 #include "control/io/ethercat_field.h"
@@ -41,8 +42,8 @@ class EthercatBus {
   // Brings all slaves to INIT and ends the thread. No tick may run any more.
   void stop();
 
-  // In the tick, each member once: the first one takes what came back, the last one sends. Null: there are no slaves
-  // yet. Real-time safe.
+  // In the tick, each member once: the first one takes what came back, the last one copies from slave to slave and
+  // sends. Null: there are no slaves yet. Real-time safe.
   ethercat::Master* begin_turn() noexcept;
   void end_turn() noexcept;
   // As Driver::cut(); of the latest turn.
@@ -59,6 +60,7 @@ class EthercatBus {
     Running(ethercat::Link& link, std::vector<ethercat::SlavePlan> plans, ethercat::Clock period, EthercatPlaces at)
         : master(link, std::move(plans), period), places(std::move(at)) {}
     ethercat::Master master;
+    ethercat::Copies copies;
     EthercatPlaces places;  // by member, as the following
     std::vector<Fields> outputs;
     std::vector<Fields> inputs;

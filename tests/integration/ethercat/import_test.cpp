@@ -154,6 +154,53 @@ TEST_F(EsiImport, Points_are_checked_with_the_description) {
                   "none.xml: No such file");
 }
 
+// What only the PDOs of both slaves say of a copy.
+TEST_F(EsiImport, Copies_are_checked_with_the_description) {
+  write("relay.xml", bytes_of(ESI_RELAY));
+  write("module.xml",
+        xml({{.file = IO_MODULE, .name = "io", .period = "2ms", .properties = {{"config", "ioconfig.xml"}}},
+             {.file = std::string(IO_FOLDER) + "/axis_user.so", .name = "axis_user", .period = "2ms"}}));
+  const auto checked = [this](const std::string& in_a, const std::string& in_b) {
+    write("ioconfig.xml",
+          "<ioconfig>\n<device name='a' driver='ethercat' address='e' slave='0' description='relay.xml'>\n" + in_a +
+              "\n</device>\n<device name='b' driver='ethercat' address='e' slave='1' description='relay.xml'>\n" +
+              in_b + "\n</device>\n</ioconfig>\n");
+    return indurop({"check", (folder() / "module.xml").string(), "-q"});
+  };
+  const Outcome good =
+      checked("<copy from='b' at='6000:1-6000:2' to='7000:1-7000:2'/><output variable='speeds[1]' at='7010:1'/>",
+              "<copy from='a' at='1a00' to='1600'/><copy from='a' at='6010:1' to='7010:1'/>");
+  EXPECT_EQ(good.code, 0) << good.out << good.err;
+  const Outcome sut = checked(
+      "<output variable='speeds[1]' at='7001:1'/>\n"
+      "<copy from='b' at='1a00' to='1600'/>",
+      "<copy from='a' at='6000:2-6000:1' to='7000:2'/>\n"
+      "<copy from='a' at='6010:1' to='7000:9'/>\n"
+      "<copy from='a' at='6000:1-6001:1' to='7000:1'/>\n"
+      "<copy from='a' at='6000:3' to='7001:1-7000:3'/>\n"
+      "<copy from='a' at='6000:3' to='7000:3'/>\n"
+      "<copy from='a' at='1a02' to='1601'/>");
+  EXPECT_EQ(sut.code, 4) << sut.out << sut.err;
+  EXPECT_CONTAINS(
+      sut.out,
+      "ioconfig.xml:4:30: error: device a: SAMPLE-RELAY cannot exchange output 1600: 7001:1 writes the same "
+      "outputs");
+  EXPECT_CONTAINS(sut.out,
+                  "ioconfig.xml:7:20: error: device a: SAMPLE-RELAY cannot exchange input 6000:2-6000:1: no PDO of the "
+                  "slave has it, from its first object to its last one");
+  EXPECT_CONTAINS(sut.out,
+                  "ioconfig.xml:8:32: error: device b: SAMPLE-RELAY cannot exchange output 7000:9: no PDO of the slave "
+                  "has it, and what they contain is fixed");
+  EXPECT_CONTAINS(sut.out,
+                  "ioconfig.xml:9:1: error: 6000:1-6001:1 of a has 9 bits, and 7000:1 has 1 byte; copy what has one "
+                  "size, and more than none");
+  EXPECT_CONTAINS(
+      sut.out,
+      "ioconfig.xml:11:32: error: device b: SAMPLE-RELAY cannot exchange output 7000:3: 7001:1-7000:3 writes "
+      "the same outputs");
+  EXPECT_CONTAINS(sut.out, "ioconfig.xml:12:20: error: device a: SAMPLE-RELAY cannot exchange input 1a02: no PDO");
+}
+
 // Two PDOs of one object each: an EEPROM does not say that they exclude each other, the slave would refuse them.
 TEST_F(EthercatNode, Exclusions_of_the_description_count) {
   write("servo.xml", EsiImport::bytes_of(ESI_SERVO));

@@ -27,6 +27,8 @@ class EthercatSimulation : public NodeTest {
         {"--sim", "--until", time});
   }
   std::string values() const { return indurop({"vars", "-o", "json"}).out; }
+
+  std::string out_;  // what the latest run said
 };
 
 TEST_F(EthercatSimulation, Moves_drives_and_is_the_same_twice) {
@@ -70,6 +72,56 @@ TEST_F(EthercatSimulation, A_cut_ring_is_reached_from_both_ends) {
   EXPECT_THAT(outcome.out, testing::HasSubstr("the cable is cut between slave 0 and slave 1; all slaves are reached"));
   EXPECT_EQ(value<std::uint8_t>("TEST_CELL::I0_quality"), 2) << "the second cable";
   EXPECT_TRUE(value<bool>("TEST_CELL::link_good"));
+}
+
+// The mode of a drive is what a relay behind it has, and that of its <set> while the relay is pulled.
+TEST_F(EthercatSimulation, A_drive_gets_bytes_of_a_relay_and_its_fail_safe_value_without_it) {
+  std::filesystem::copy_file(ESI_RELAY, folder() / "relay.xml");
+  write("faults", "1s value slave=1 at=6010:1 to=8\n2s power_off slave=1 for=1s\n");
+  const auto mode_at = [this](const std::string& time) {
+    const Outcome outcome = simulate(
+        "<device name='axis1' driver='ethercat' address='eth77' slave='0' quality='TEST_CELL::link_good'>\n"
+        "  <input variable='speeds[1]' at='mode'/>\n"
+        "  <set at='6060' type='int8' value='1'/>\n"
+        "  <copy from='relay' at='6010:1' to='mode' hold='20ms'/>\n"
+        "</device>\n"
+        "<device name='relay' driver='ethercat' address='eth77' slave='1' quality='TEST_CELL::I0_quality'/>\n"
+        "<simulation address='eth77' slaves='drive relay.xml' script='faults'/>\n",
+        time);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(value<bool>("TEST_CELL::link_good"));
+    out_ = outcome.out;
+    return std::stol(indurop({"get", "TEST_CELL::speeds[1]"}).out);
+  };
+  EXPECT_EQ(mode_at("990ms"), 0);
+  EXPECT_EQ(mode_at("1020ms"), 8);
+  EXPECT_EQ(mode_at("2010ms"), 8) << "held";
+  EXPECT_EQ(mode_at("2040ms"), 1);
+  EXPECT_THAT(out_, testing::HasSubstr("slave 0 (InduRoP simulated drive): slave 1 has no valid bytes to copy to it; "
+                                       "these outputs have their fail-safe values"));
+  EXPECT_EQ(static_cast<int>(value<std::uint8_t>("TEST_CELL::I0_quality")), 2) << "the source says it, too";
+  EXPECT_EQ(mode_at("4500ms"), 8) << "it is back";
+}
+
+TEST_F(EthercatSimulation, A_copy_between_slaves_that_do_not_fit_keeps_the_bus_from_starting) {
+  std::filesystem::copy_file(ESI_RELAY, folder() / "relay.xml");
+  const std::string slaves = "<simulation address='eth77' slaves='drive relay.xml'/>\n";
+  const auto said = [this, &slaves](const std::string& at) {
+    return simulate("<device name='axis1' driver='ethercat' address='eth77' slave='0'>\n  <copy from='relay' at='" +
+                        at +
+                        "' to='mode'/>\n</device>\n"
+                        "<device name='relay' driver='ethercat' address='eth77' slave='1'/>\n" +
+                        slaves,
+                    "100ms")
+        .out;
+  };
+  EXPECT_THAT(said("6000:2"),
+              testing::HasSubstr("EtherCAT eth77: slave 0 (InduRoP simulated drive), device axis1: 6000:2 "
+                                 "of relay has 2 bytes, and mode has 1 byte; copy what has one size"));
+  EXPECT_THAT(said("6000:1-6010:1"),
+              testing::HasSubstr("EtherCAT eth77: slave 1 (Sample safety relay), device relay: input 6000:1-6010:1 "
+                                 "cannot be exchanged: no PDO of the slave has it, from its first object to its last "
+                                 "one; its inputs are 6000:01, 6001:01"));
 }
 
 TEST_F(EthercatSimulation, The_tick_follows_the_clock_of_a_simulated_drive) {
