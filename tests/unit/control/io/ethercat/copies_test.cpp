@@ -17,7 +17,7 @@ namespace {
 
 using Block = std::vector<std::uint8_t>;
 
-constexpr std::size_t kBytes = 24;  // of inputs, and of outputs, of each slave
+constexpr std::size_t kSlaveBytes = 24;  // of inputs, and of outputs, of each slave
 constexpr unsigned kHeldTicks = 100;
 constexpr Clock kHold = kHeldTicks * kTick;
 
@@ -25,7 +25,7 @@ Sii slave_sii() {
   Sii sii = drive_sii();
   sii.outputs = {{0x1600, 2, 0, "Outputs", {}}};
   sii.inputs = {{0x1A00, 3, 0, "Inputs", {}}};
-  for (std::uint8_t i = 1; i <= kBytes; ++i) {
+  for (std::uint8_t i = 1; i <= kSlaveBytes; ++i) {
     sii.outputs[0].entries.push_back({0x7000, i, 8, 5, ""});
     sii.inputs[0].entries.push_back({0x6000, i, 8, 5, ""});
   }
@@ -57,7 +57,7 @@ class CopyPlant {
       std::fill(outputs.begin(), outputs.end(), std::uint8_t{0xFF});
       master_.set_outputs_good(i, true);
     }
-    const Block bytes(kBytes, fail_safe);
+    const Block bytes(kSlaveBytes, fail_safe);
     for (const Copy& copy : copies_) {
       copy_bits(bytes, copy.to_bit, master_.outputs(copy.to), copy.to_bit, copy.bits);
     }
@@ -130,7 +130,7 @@ class CopyPlant {
   }
   // What the target has besides, which no copy may change.
   [[nodiscard]] bool others_are_set(std::size_t slave) {
-    Block bits = bits_of(slave, kDriveOutputs, 0, 8 * kBytes);
+    Block bits = bits_of(slave, kDriveOutputs, 0, 8 * kSlaveBytes);
     for (const Copy& copy : copies_) {
       if (copy.to == slave) {
         std::fill_n(bits.begin() + static_cast<std::ptrdiff_t>(copy.to_bit), copy.bits, std::uint8_t{1});
@@ -149,7 +149,7 @@ class CopyPlant {
   // One byte for each bit.
   Block bits_of(std::size_t slave, std::uint16_t memory, std::size_t first, std::size_t count) {
     Block bits;
-    const auto bytes = bus_.segment().slave(slave).esc().memory(memory, kBytes);
+    const auto bytes = bus_.segment().slave(slave).esc().memory(memory, kSlaveBytes);
     for (std::size_t i = first; i < first + count; ++i) {
       bits.push_back(static_cast<std::uint8_t>(bytes[i / 8] >> (i % 8) & 1U));
     }
@@ -177,11 +177,11 @@ std::vector<Copy> random_copies(std::mt19937& random, std::size_t slaves) {
     std::size_t room_at = random() % 16;
     while (true) {
       const std::size_t bits = 40 + random() % 80;
-      if (room_at + bits > 8 * kBytes) {
+      if (room_at + bits > 8 * kSlaveBytes) {
         break;
       }
       const std::size_t from = (to + 1 + random() % (slaves - 1)) % slaves;
-      copies.push_back({from, random() % (8 * kBytes - bits + 1), to, room_at, bits, kHold});
+      copies.push_back({from, random() % (8 * kSlaveBytes - bits + 1), to, room_at, bits, kHold});
       room_at += bits + random() % 16;
     }
   }
