@@ -15,7 +15,7 @@ FENCE = re.compile(r"^```(\w*)[^\n]*\n(.*?)^```", re.MULTILINE | re.DOTALL)
 NAMED_FILE = re.compile(r"`((?:[a-z0-9_]+/)+[\w.-]*)`")
 NAMED_TEST = re.compile(r"`([A-Z]\w+\.[A-Z][a-z0-9]*_\w+)`")
 TEST = re.compile(r"^TEST\w*\(\s*(\w+),\s*(\w+)\)", re.MULTILINE)
-LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+LINK = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)")
 
 
 def commands(text):
@@ -43,6 +43,24 @@ def missing_files(root, name, text, files):
                 yield f"{name}: names the missing file {path}"
 
 
+def anchors(text):
+    """The headings of a page as links name them, in small letters, without punctuation, spaces as hyphens; and its ids."""
+    shown = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", FENCE.sub("", text))
+    return {re.sub(r"[^\w -]", "", heading.lower()).strip().replace(" ", "-")
+            for heading in re.findall(r"^#+ (.*)", shown, re.MULTILINE)} | set(re.findall(r'<a id="([^"]+)"', text))
+
+
+def broken_links(root, name, text):
+    for target, anchor in LINK.findall(text):
+        if "://" in target or not (target or anchor):
+            continue
+        page = (root / name).parent / target if target else root / name
+        if not page.exists():
+            yield f"{name}: link to missing file {target}"
+        elif anchor and page.suffix == ".md" and anchor not in anchors(page.read_text(encoding="utf-8")):
+            yield f"{name}: {target or 'this page'} has no heading #{anchor}"
+
+
 def tests_of(root, files):
     return {".".join(names) for file in files if file.startswith("tests/") and file.endswith(".cpp")
             for names in TEST.findall(common.read(root, file))}
@@ -63,9 +81,7 @@ def check(root, program):
         text = common.read(root, name)
         findings += missing_files(root, name, text, files)
         findings += [f"{name}: names the missing test {test}" for test in NAMED_TEST.findall(text) if test not in tests]
-        for target in LINK.findall(text):
-            if "://" not in target and not (root / name).parent.joinpath(target).exists():
-                findings.append(f"{name}: link to missing file {target}")
+        findings += broken_links(root, name, text)
         for command in commands(text):
             for part in re.split(r"\s*(?:&&|;|\|)\s*", command):
                 words = part.split()

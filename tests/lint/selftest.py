@@ -466,6 +466,13 @@ class Readme(Sample):
         self.put("docs/a.md", "[b](b.md) [web](https://example.org/)\n")
         self.found(check_readme.check(self.root, None), "b.md")
 
+    def test_link_to_no_heading(self):
+        self.put("Makefile", "all:\n")
+        self.put("docs/a.md", "# One `x_y` more?\n[a](#one-x_y-more) [id](b.md#id) [gone](b.md#gone) [own](#two)\n")
+        self.put("docs/b.md", '<a id="id"></a>**Id**\n```sh\n# gone\n```\n')
+        self.assertEqual(check_readme.check(self.root, None), ["docs/a.md: b.md has no heading #gone",
+                                                               "docs/a.md: this page has no heading #two"])
+
     def test_missing_test(self):
         self.put("Makefile", "all:\n")
         self.put("tests/unit/a_test.cpp", HEAD + "TEST_F(Store, Keeps_what_is_written) {\n}\n")
