@@ -39,7 +39,7 @@ quick: with-tests ## unit and golden tests only
 	@$(CTEST) -L 'unit|golden'
 
 soak: T = 20m
-soak: with-tests ## a plant of three boards for T (T=20m, 2h): what grows; the store read 10^9 times; as root
+soak: with-tests ## a plant of three boards for T (T=20m, 2h): what grows; the store read 10^9 times; a loop of 100 us; as root
 	@INDUROP_SOAK_TIME=$(T) $(CTEST) -V -L soak
 
 rt-proof: T = 10

@@ -92,6 +92,7 @@ struct IoAxis {
   double inertia = 0.5;                     // kg m2
   double damping = 1;                       // N m s / rad
   double torque = 200;                      // maximum of the motor, N m
+  double torque_bandwidth = 0;              // with which the torque follows the demanded one, Hz; 0: it follows at once
   double speed = 180;                       // maximum, degrees / s
   double acceleration = 720;                // of the profile modes, degrees / s2
   double bandwidth = 20;                    // of the position loop, Hz

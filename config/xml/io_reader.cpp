@@ -234,6 +234,7 @@ class DeviceReader {
     real("inertia", kLeast, kMaxReal, axis.inertia);
     real("damping", 0, kMaxReal, axis.damping);
     real("torque", kLeast, kMaxReal, axis.torque);
+    real("torque_bandwidth", 0, kMaxReal, axis.torque_bandwidth);
     real("speed", kLeast, kMaxReal, axis.speed);
     real("acceleration", kLeast, kMaxReal, axis.acceleration);
     constexpr double kMaxBandwidth = 200;  // the simulation's own step is 125 us

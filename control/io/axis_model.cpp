@@ -18,20 +18,33 @@ AxisModel::AxisModel(const config::IoAxis& axis) noexcept
       damping_(axis.damping),
       max_torque_(axis.torque),
       max_velocity_(axis.speed * kRadiansPerDegree),
+      torque_rate_(2 * std::numbers::pi * axis.torque_bandwidth),
       // The two loops together are critically damped at the bandwidth: s^2 + 2 w s + w^2.
       position_gain_(std::numbers::pi * axis.bandwidth),
       velocity_gain_(4 * std::numbers::pi * axis.bandwidth),
       counts_per_radian_(axis.counts / (2 * std::numbers::pi)),
       noise_counts_(axis.noise),
       random_((axis.seed + 1) * kSpread),
-      position_(axis.start * kRadiansPerDegree) {}
+      position_(axis.start * kRadiansPerDegree) {
+  set_step(kStep);
+}
+
+void AxisModel::set_step(double step) noexcept {
+  step_ = step;
+  lag_ = torque_rate_ > 0 ? std::exp(-torque_rate_ * step) : 0;
+}
 
 void AxisModel::accelerate(double torque) noexcept {
-  torque_ = std::clamp(torque, -max_torque_, max_torque_);
-  limited_ = limited_ || torque_ != torque;
-  velocity_ += (torque_ - load_ - damping_ * velocity_) / inertia_ * kStep;
-  position_ += velocity_ * kStep;
+  const double demanded = std::clamp(torque, -max_torque_, max_torque_);
+  limited_ = limited_ || demanded != torque;
+  torque_ = demanded + (torque_ - demanded) * lag_;
+  move(torque_);
   torques_ += torque_;
+}
+
+void AxisModel::move(double torque) noexcept {
+  velocity_ += (torque - load_ - damping_ * velocity_) / inertia_ * step_;
+  position_ += velocity_ * step_;
   ++steps_;
 }
 
@@ -61,13 +74,11 @@ void AxisModel::push(double torque) noexcept {
 void AxisModel::brake() noexcept {
   limited_ = false;
   // At most the torque that just stops the axis within the step.
-  const double stopping = damping_ * velocity_ - velocity_ * inertia_ / kStep;
+  const double stopping = damping_ * velocity_ - velocity_ * inertia_ / step_;
   const double load = std::exchange(load_, 0);
-  const double torques = torques_;  // the motor gives no torque
-  accelerate(std::clamp(stopping, -max_torque_, max_torque_));
-  torques_ = torques;
+  move(std::clamp(stopping, -max_torque_, max_torque_));
   load_ = load;
-  torque_ = 0;
+  torque_ = 0;  // the motor gives none
 }
 
 double AxisModel::noise() noexcept {

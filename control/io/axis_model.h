@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A simulated axis: a motor with its load, the drive's position and velocity loop, and the encoder on the shaft. A
-// second-order system with limits, computed in steps of fixed length so that equal commands give equal motion. Units:
-// rad, s, N m. Real-time safe.
+// second-order system with limits, computed in steps so that equal commands give equal motion. The motor's torque
+// follows at once, or with the lag of its winding. Units: rad, s, N m. Real-time safe.
 
 #pragma once
 
@@ -25,10 +25,12 @@ struct AxisReference {
 class AxisModel {
  public:
   static constexpr std::int64_t kStepNs = 125'000;
-  static constexpr double kStep = 125e-6;  // in seconds
+  static constexpr double kStep = 125e-6;  // in seconds; the loops are made for this one
 
   explicit AxisModel(const config::IoAxis& axis) noexcept;
 
+  // Sets the length of the next steps, s, more than 0 and at most kStep; kStep before.
+  void set_step(double step) noexcept;
   // Returns the mean motor torque since the last call, N m; the last torque if there was no step since.
   [[nodiscard]] double take_mean_torque() noexcept;
   // Sets the load on the axis in addition to its own inertia and damping: a torque against the motor, N m.
@@ -55,12 +57,14 @@ class AxisModel {
 
  private:
   void accelerate(double torque) noexcept;
+  void move(double torque) noexcept;
   double noise() noexcept;
 
   double inertia_;
   double damping_;
   double max_torque_;
   double max_velocity_;
+  double torque_rate_;    // 1/s, with which the torque follows the demanded one; 0: at once
   double position_gain_;  // 1/s
   double velocity_gain_;  // 1/s
   double counts_per_radian_;
@@ -69,6 +73,8 @@ class AxisModel {
   double position_;
   double velocity_ = 0;
   double torque_ = 0;
+  double step_ = kStep;
+  double lag_ = 0;  // what is left after a step of the difference between demanded torque and torque
   double load_ = 0;
   double torques_ = 0;  // sum of the steps since take_mean_torque()
   int steps_ = 0;

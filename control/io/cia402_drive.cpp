@@ -239,13 +239,13 @@ void Cia402Drive::advance_enabled(const DriveCommand& command, double dt) noexce
   }
 }
 
-void Cia402Drive::watch_following() noexcept {
+void Cia402Drive::watch_following(double dt) noexcept {
   const double error = std::fabs(profile_.position - model_.position());
   if (!follows_position_ || error <= axis_.following * kRadiansPerDegree) {
     following_error_s_ = 0;
     return;
   }
-  following_error_s_ += AxisModel::kStep;
+  following_error_s_ += dt;
   if (following_error_s_ > std::chrono::duration<double>(axis_.following_time).count()) {
     machine_.fail(kFollowingError);
     follow_actual();
@@ -260,7 +260,7 @@ void Cia402Drive::advance(const DriveCommand& command, double dt) noexcept {
       stop_at_limits(before, dt);
       follows_position_ = is_position(mode_) || mode_ == DriveMode::Homing;
       close_loops(command);
-      watch_following();
+      watch_following(dt);
       break;
     }
     case DriveState::QuickStopActive:
@@ -381,9 +381,13 @@ DriveFeedback Cia402Drive::step(const DriveCommand& command, std::chrono::nanose
     cyclic_velocity_ = enabled ? (cyclic_target(command) - profile_.position) / period : 0;
   }
   model_.carry(command.load);
-  // A period need not be a multiple of the step; the rest is added to the next one.
-  for (rest_ns_ += elapsed.count(); rest_ns_ >= AxisModel::kStepNs; rest_ns_ -= AxisModel::kStepNs) {
-    advance(command, AxisModel::kStep);
+  // Equal steps, none longer than those of the loops.
+  const std::int64_t steps = (elapsed.count() + AxisModel::kStepNs - 1) / AxisModel::kStepNs;
+  const double dt =
+      steps > 0 ? static_cast<double>(elapsed.count()) / static_cast<double>(steps) / 1e9 : AxisModel::kStep;
+  model_.set_step(dt);
+  for (std::int64_t i = 0; i < steps; ++i) {
+    advance(command, dt);
     previous_ = std::exchange(last_, model_.position());
     if (command.probe != 0) {
       probe_.step({previous_ / kRadiansPerDegree, degrees(), axis_.probe, axis_.mark});

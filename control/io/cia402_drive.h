@@ -100,7 +100,7 @@ class Cia402Drive {
   [[nodiscard]] std::int32_t shown(double degrees) const noexcept;
   void report_sensors(DriveFeedback& result) const noexcept;
   void advance_profile_position(const DriveCommand& command, double dt) noexcept;
-  void watch_following() noexcept;
+  void watch_following(double dt) noexcept;
   [[nodiscard]] double radians_of(std::int32_t counts) const noexcept;
   [[nodiscard]] bool standing() const noexcept;
   [[nodiscard]] std::uint16_t mode_bits(const DriveCommand& command) const noexcept;
@@ -129,7 +129,6 @@ class Cia402Drive {
   double cyclic_velocity_ = 0;    // velocity towards the target of this period
   double following_error_s_ = 0;  // time with an excessive following error
   std::int64_t last_counts_;
-  std::int64_t rest_ns_ = 0;  // rest of the period, shorter than a step
 };
 
 }  // namespace indurop::io

@@ -33,7 +33,8 @@ using std::chrono::nanoseconds;
 constexpr const char* kDetails = R"(A SLAVE is
   drive                        a simulated servo drive (CiA 402)
   drive:start=-20,speed=220    with start, deg; speed, deg/s; acceleration, deg/s2;
-                               following, deg; counts of its encoder in a revolution;
+                               following, deg; torque_bandwidth, Hz, with which the torque
+                               follows its set point; counts of its encoder in a revolution;
                                alias, by which a master can find it
   el2004.bin                   the device of this EEPROM
   terminals.xml:EL2004         the device of a maker's file (ESI); without :EL2004 if it has one

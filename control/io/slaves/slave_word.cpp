@@ -36,11 +36,12 @@ struct DriveValue {
   double most;
 };
 constexpr double kMaxReal = 1e9;
-constexpr std::array<DriveValue, 6> kDriveValues{
+constexpr std::array<DriveValue, 7> kDriveValues{
     {{"start", [](DriveValues& drive) -> double& { return drive.axis.start; }, -1e6, kMaxReal},
      {"speed", [](DriveValues& drive) -> double& { return drive.axis.speed; }, 1e-9, kMaxReal},
      {"acceleration", [](DriveValues& drive) -> double& { return drive.axis.acceleration; }, 1e-9, kMaxReal},
      {"following", [](DriveValues& drive) -> double& { return drive.axis.following; }, 1e-9, kMaxReal},
+     {"torque_bandwidth", [](DriveValues& drive) -> double& { return drive.axis.torque_bandwidth; }, 0, kMaxReal},
      {"counts", [](DriveValues& drive) -> double& { return drive.axis.counts; }, 4, kMaxReal},
      {"alias", [](DriveValues& drive) -> double& { return drive.alias; }, 1, 65535}}};
 

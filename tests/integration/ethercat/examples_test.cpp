@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The examples of EtherCAT in a network of their own. ethercat_arm: a tour of the arm on simulated drives to its end,
 // then a drive without power, which is named, stops all, and comes back, on one board and on two. ethercat_33: all of
-// its axes move.
+// its axes move. ethercat_current: the torque follows.
 #include <filesystem>
 #include <string>
 
@@ -87,6 +87,13 @@ TEST_F(EthercatExamples, Thirty_three_axes_move) {
   test::Program sut({AXES_DEMO, "3"}, environment(AXES_FOLDER));
   ASSERT_EQ(sut.wait(std::chrono::seconds(100)), 0) << sut.out();
   EXPECT_THAT(sut.out(), testing::HasSubstr("enabled 33 axes, largest deviation 0"));
+}
+
+TEST_F(EthercatExamples, A_current_loop_is_closed_over_the_cable) {
+  test::Program sut({CURRENT_DEMO, "2"}, environment(CURRENT_FOLDER));
+  ASSERT_EQ(sut.wait(std::chrono::seconds(100)), 0) << sut.out();
+  EXPECT_THAT(sut.out(), testing::ContainsRegex("[1-9][0-9]* steps, the slowest in [1-9][0-9]* us"));
+  EXPECT_THAT(sut.out(), testing::ContainsRegex("[1-9][0-9]* frames sent: [0-9]+ came back late"));
 }
 
 TEST_F(EthercatExamples, Says_what_it_lacks) {

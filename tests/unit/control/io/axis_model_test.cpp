@@ -114,6 +114,37 @@ TEST(AxisModel, The_brake_stops_and_holds) {
   EXPECT_NEAR(sut.position() - before, 0.0038, 0.0003);
 }
 
+// With lag the torque is the current of a winding: 1 - exp(-t / T) of what is demanded, whatever the step.
+TEST(AxisModel, The_torque_follows_like_the_current_of_a_winding) {
+  for (const double step : {AxisModel::kStep, 100e-6, 7e-6}) {
+    config::IoAxis axis;
+    axis.torque_bandwidth = 50;
+    AxisModel sut(axis);
+    sut.set_step(step);
+    for (int i = 1; i < 100; ++i) {
+      sut.push(2);
+      EXPECT_NEAR(sut.torque(), 2 * (1 - std::exp(-i * step * 2 * std::numbers::pi * 50)), 1e-9);
+    }
+    sut.brake();
+    EXPECT_EQ(sut.torque(), 0);
+  }
+}
+
+TEST(AxisModel, Steps_of_any_length_go_the_same_way) {
+  const auto way = [](double step, int steps) {
+    AxisModel sut(config::IoAxis{});
+    sut.set_step(step);
+    for (int i = 0; i < steps; ++i) {
+      sut.push(10);
+    }
+    return sut.position();
+  };
+  // t / b - J / b^2 (1 - exp(-b t / J)) of the torque, with inertia J and damping b
+  const double exact = 10 * (0.1 - 0.5 * (1 - std::exp(-0.1 / 0.5)));
+  EXPECT_NEAR(way(AxisModel::kStep, 800), exact, exact * 0.003);
+  EXPECT_NEAR(way(100e-6, 1000), exact, exact * 0.003);
+}
+
 TEST(AxisModel, The_encoder_counts_whole_steps) {
   config::IoAxis axis;
   axis.counts = 360;

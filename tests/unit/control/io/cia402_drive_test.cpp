@@ -299,6 +299,26 @@ TEST(Cia402Period, Of_any_length_gives_the_same_way) {
   };
   EXPECT_NEAR(arrive(milliseconds(10), 200), 45'000, 10);
   EXPECT_NEAR(arrive(std::chrono::microseconds(333), 6000), 45'000, 10);
+  EXPECT_NEAR(arrive(std::chrono::microseconds(100), 20'000), 45'000, 10);
+}
+
+// Each period of 100 us moves the torque by its share of the way to the set point; none is without a step of the model.
+TEST(Cia402Period, Of_100_us_has_the_torque_of_a_winding_in_each_period) {
+  constexpr double kBandwidth = 40;
+  config::IoAxis settings = axis();
+  settings.torque_bandwidth = kBandwidth;
+  Cia402Drive drive(settings);
+  DriveCommand command;
+  command.mode = 10;
+  for (const std::uint16_t control : kEnabling) {
+    command.control = control;
+    drive.step(command, std::chrono::microseconds(100));
+  }
+  command.torque = 150;  // slowly enough for the speed limit
+  for (int i = 1; i < 200; ++i) {
+    const double wanted = 150 * (1 - std::exp(-i * 100e-6 * 2 * std::numbers::pi * kBandwidth));
+    EXPECT_NEAR(drive.step(command, std::chrono::microseconds(100)).torque, wanted, 0.51) << i;
+  }
 }
 
 }  // namespace
