@@ -18,6 +18,7 @@ KERNEL_PACKAGE = "linux-image-6.12-rt-amd64"  # names the newest one
 TOOLS = ("qemu-system-x86_64", "busybox", "cpio", "cyclictest")
 # Drivers of a disk with ext4, in the order in which they are loaded.
 DRIVERS = ("crc32c_generic", "libcrc32c", "crc16", "mbcache", "jbd2", "ext4", "virtio_blk")
+CABLE = "veth"  # a driver, too: a pair of network interfaces
 BEGIN, END = "===== out", "===== end"
 
 INIT = """#!/bin/busybox sh
@@ -52,7 +53,7 @@ def kernel():
 
 
 def is_fetched():
-    return kernel() is not None and all((cache() / "drivers" / f"{name}.ko").exists() for name in DRIVERS)
+    return kernel() is not None and all((cache() / "drivers" / f"{name}.ko").exists() for name in (*DRIVERS, CABLE))
 
 
 def missing():
@@ -75,7 +76,7 @@ def fetch_kernel():
         subprocess.run(["dpkg-deb", "-x", package, folder + "/x"], check=True)
         for name in ("boot", "drivers"):
             (cache() / name).mkdir(parents=True, exist_ok=True)
-        for name in DRIVERS:
+        for name in (*DRIVERS, CABLE):
             packed = next(pathlib.Path(folder, "x/lib/modules").rglob(f"{name}.ko.xz"))
             (cache() / "drivers" / f"{name}.ko").write_bytes(lzma.decompress(packed.read_bytes()))
         for file in pathlib.Path(folder, "x", "boot").glob("vmlinuz-*"):

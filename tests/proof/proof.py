@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Real time, proven: schedules run in a machine with counted time (guest.py), idle and loaded, compared with cyclictest.
 Fails if a tick is lost, a module overruns or misses its deadline, a tick is later than cyclictest's latest + 1 us, or
-something takes 2 % more instructions than instructions.json says (INDUROP_UPDATE_GOLDEN=1 writes that file again)."""
+something takes 2 % more instructions than instructions.json says (INDUROP_UPDATE_GOLDEN=1 writes that file again).
+An EtherCAT bus with 33 drives at a pair of network interfaces is counted, too."""
 
 import argparse
 import json
@@ -23,6 +24,8 @@ WALL_PER_SECOND = 30  # of counted time, at most, on a busy host
 HOST_IS_BUSY = 1800  # seconds to boot: a limit for a guest that hangs, not for one that is slow
 SKIPPED = 77
 EXPECTED = pathlib.Path(__file__).with_name("instructions.json")
+AXES = 33  # of the example ethercat_33
+AXES_SECONDS = 8  # of counted time until all of them have moved for a while; an instruction of theirs takes 1 ns, too
 ACCESSES = ("read_scalar", "write_scalar", "read_24", "write_24", "read_256", "write_256")
 
 MODULE = ("<module><name>{name}</name><filename>./{file}</filename><moduletype>thread</moduletype><operationtype>periodic"
@@ -61,11 +64,22 @@ def above_bound(program, config, report):
             for module in report["modules"] if module["response_ns"]["max"] > bounds[module["name"]]]
 
 
+def exchange_script():
+    """The shortest of 500 exchanges with all axes, by the log of the node. Slaves answer whatever else happens."""
+    return ["cd /test/axes; insmod /drivers/veth.ko", "ip link add ec33a type veth; ip link set ec33a up; ip link set veth0 up",
+            f"chrt -f 40 indurop-ecsim veth0 {'drive ' * AXES}& slaves=$!",
+            f"indurop-node module.xml --node axes -q --duration {AXES_SECONDS}s & axes=$!",
+            f"sleep {AXES_SECONDS - 1}; indurop get --node axes AXES::state.enabled >/out/enabled",
+            "indurop log --node axes -n 500 -o json libiodispat >/out/exchange",
+            "wait $axes; kill $slaves"]
+
+
 def script(seconds):
     """One boot: cyclictest and each schedule, idle and with work in the background."""
     lines = ["set -u", "ip route add 224.0.0.0/4 dev lo 2>/dev/null", "uname -r >/out/kernel"]
     for load in ("idle", "loaded"):
         if load == "loaded":
+            lines += exchange_script()
             lines += ["(while :; do dd if=/dev/zero of=/tmp/x bs=64k count=64; done) 2>/dev/null &",
                       "(while :; do ls -R /proc; done) >/dev/null 2>&1 &",
                       "(while :; do :; done) &"]
@@ -88,12 +102,15 @@ def script(seconds):
 
 def fill(machine, arguments):
     examples = pathlib.Path(arguments.examples)
-    for folder, to in (("chapter", "chapter"), ("robot_cell", "cell"), ("two_boards", "two")):
+    for folder, to in (("chapter", "chapter"), ("robot_cell", "cell"), ("two_boards", "two"), ("ethercat_33", "axes")):
         for file in sorted((examples / folder).iterdir()):
             if file.is_file() and file.suffix in (".so", ".exe", ".xml", ".job", ".urdf"):
                 machine.add(file, f"{to}/{file.name}")
     cell = machine.root / "test/cell"
     (cell / "cell.xml").write_text((cell / "module.xml").read_text().replace("<period>10000000<", "<period>1000000<"))
+    axes = machine.root / "test/axes/module.xml"
+    axes.write_text(axes.read_text().replace("<period>1000000<", "<period>4000000<"))
+    machine.add_drivers()
     for module in ("idle", "nothing", *ACCESSES):
         machine.add(pathlib.Path(arguments.modules) / f"counted_{module}.so")
     (machine.root / "test/many.xml").write_text(
@@ -136,6 +153,8 @@ def counts(files):
             # What the robot does depends on how long it runs.
             if module["type"] == "thread" and module["operation"] == "periodic" and module["name"] != "Robot":
                 found[f"shortest run of {module['name']}"] = module["exec_ns"]["min"]
+    found[f"exchange with {AXES} drives, with the system's part"] = min(
+        run["exec_ns"] for run in json.loads(files["exchange"])["runs"])
     return found
 
 
@@ -155,14 +174,17 @@ def table(rows):
 
 
 def run(arguments):
-    programs = [os.path.join(arguments.bin, name) for name in ("indurop-node", "indurop")]
-    with guest.Guest([*programs, shutil.which("cyclictest")]) as machine:
+    programs = [os.path.join(arguments.bin, name) for name in ("indurop-node", "indurop", "indurop-ecsim")]
+    with guest.Guest([*programs, shutil.which("cyclictest"), shutil.which("chrt")]) as machine:
         fill(machine, arguments)
         seconds = arguments.time
         files, console = machine.run(script(seconds), HOST_IS_BUSY + WALL_PER_SECOND * 2 * seconds * (1 + len(SCHEDULES)))
         if "counted" not in files:
             print(console[-4000:], files.get("log", ""), sep="\n")
             return ["the guest did not come to the end of its script"]
+        if files["enabled"].strip() != str(AXES) or ": 0 came back late, 0 were lost" not in files["log"]:
+            print(files["log"])
+            return [f"not all of {AXES} drives were exchanged in each tick: the shortest exchange is none"]
         rows, wrong = [], []
         for load in ("idle", "loaded"):
             limit = cyclictest_max(files[f"cyclictest.{load}"])
