@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <random>
 
 #include "control/io/ethercat/master/copies.h"
 #include "simulated_plant.h"
@@ -69,6 +70,46 @@ TEST(Master, A_pulled_slave_is_named_in_the_next_tick_and_others_keep_their_data
   plant.run(2);
   EXPECT_TRUE(plant.master().is_fresh(2));
   EXPECT_TRUE(plant.master().is_fresh(3));
+}
+
+// Without and with pulses of their clocks. Of the first slave no frame comes back, so that all are without data.
+TEST(Master, A_slave_pulled_anywhere_is_named_within_a_tick_and_operates_again_within_two_seconds) {
+  std::mt19937 random(5);
+  for (unsigned round = 0; round < 40; ++round) {
+    const std::size_t place = round % 4;
+    SCOPED_TRACE(testing::Message() << "round " << round << ", slave " << place);
+    auto plans = drive_plans(4);
+    for (SlavePlan& plan : plans) {
+      plan.sync.activation = round % 8 < 4 ? 0 : 0x0300;
+      plan.sync.cycle = kTick;
+      plan.sync.shift = kTick / 2;
+    }
+    Plant plant(4, plans);
+    plant.run_until_all_operate(2000);
+    plant.run(10 + static_cast<unsigned>(random() % 100));
+    const auto downloads = plant.slave(place).sdo().downloads();
+    plant.events().clear();
+    plant.bus().segment().set_power(place, false);
+    plant.run(2);  // there, and back
+    EXPECT_TRUE(place == 0 || plant.happened(place, Problem::WrongCounter)) << plant.story();
+    const auto away = static_cast<unsigned>(20 + random() % 400);
+    for (unsigned tick = 0; tick < away; ++tick) {
+      plant.tick();
+      for (std::size_t i = 0; i < 4; ++i) {
+        ASSERT_EQ(plant.master().is_fresh(i), i < place) << "slave " << i << ", tick " << tick;
+        ASSERT_TRUE(i >= place || !plant.happened(i, Problem::WrongCounter));
+      }
+    }
+    plant.bus().segment().set_power(place, true);
+    unsigned ticks = 0;
+    for (; ticks < 2000 && !(plant.master().is_fresh(place) && plant.master().is_fresh(3)); ++ticks) {
+      plant.tick();
+    }
+    EXPECT_LT(ticks, 2000U) << plant.story();
+    EXPECT_TRUE(plant.all_operate());
+    EXPECT_EQ(plant.slave(place).sdo().downloads(), downloads + 2) << "everything was applied again";
+    EXPECT_TRUE(plant.happened(place, Problem::Missing)) << plant.story();
+  }
 }
 
 // As couplers and terminals of real buses are: the chip copies the state with the bit that acknowledges.
