@@ -339,7 +339,6 @@ void interpret_io(const base::Element& root, IoConfig& config, base::Diagnostics
   }
   check_root_attributes(root, {}, report);
   check_no_text(root, report);
-  const std::filesystem::path folder = config.file.parent_path();
   std::map<std::string, int> lines;
   std::vector<const base::Element*> elements;  // of the devices
   for (const base::Element& child : root.children) {
@@ -350,7 +349,7 @@ void interpret_io(const base::Element& root, IoConfig& config, base::Diagnostics
       read_io_simulation(child, config, report);
       continue;
     }
-    auto device = DeviceReader(child, folder, report).read();
+    auto device = DeviceReader(child, config.file.parent_path(), report).read();
     if (!device) {
       continue;
     }

@@ -440,8 +440,11 @@ class Tick(Sample):
 
 
 class Readme(Sample):
-    def check(self, typed, program=None):
+    def setUp(self):
+        super().setUp()
         self.put("Makefile", "all demo: ## build\n")
+
+    def check(self, typed, program=None):
         self.put("README.md", f"# Title\n\n```console\n$ {typed}\nsome output\n```\n")
         return check_readme.check(self.root, program)
 
@@ -461,26 +464,18 @@ class Readme(Sample):
     def test_missing_file(self):
         self.found(self.check("examples/none.sh"), "no such file")
 
-    def test_broken_link(self):
-        self.put("Makefile", "all:\n")
-        self.put("docs/a.md", "[b](b.md) [web](https://example.org/)\n")
-        self.found(check_readme.check(self.root, None), "b.md")
-
-    def test_link_to_no_heading(self):
-        self.put("Makefile", "all:\n")
-        self.put("docs/a.md", "# One `x_y` more?\n[a](#one-x_y-more) [id](b.md#id) [gone](b.md#gone) [own](#two)\n")
-        self.put("docs/b.md", '<a id="id"></a>**Id**\n```sh\n# gone\n```\n')
-        self.assertEqual(check_readme.check(self.root, None), ["docs/a.md: b.md has no heading #gone",
-                                                               "docs/a.md: this page has no heading #two"])
+    def test_broken_links(self):
+        self.put("docs/a.md", "# One `x_y` more?\n[a](#one-x_y-more) [b](b.md#id) [c](b.md#c) [d](d.md) [e](https://e.org/)\n")
+        self.put("docs/b.md", '<a id="id"></a>**Id**\n```sh\n# c\n```\n')
+        self.assertEqual(check_readme.check(self.root, None),
+                         ["docs/a.md: b.md has no heading #c", "docs/a.md: link to missing file d.md"])
 
     def test_missing_test(self):
-        self.put("Makefile", "all:\n")
         self.put("tests/unit/a_test.cpp", HEAD + "TEST_F(Store, Keeps_what_is_written) {\n}\n")
         self.put("docs/a.md", "`Store.Keeps_what_is_written`, `Store.size`, and `Store.Forgets_what_is_written`\n")
         self.found(check_readme.check(self.root, None), "docs/a.md", "Store.Forgets_what_is_written")
 
     def test_missing_source_file(self):
-        self.put("Makefile", "all:\n")
         self.put("store/vars/store.h", HEAD)
         self.put("docs/a.md", "`store/vars/store.h`, `store/vars/store`, `store/vars/`, `build/bin/`, `a/b`, and `store/vars/stroe.h`\n")
         self.found(check_readme.check(self.root, None), "docs/a.md", "store/vars/stroe.h")
