@@ -448,10 +448,8 @@ class Readme(Sample):
         self.put("README.md", f"# Title\n\n```console\n$ {typed}\nsome output\n```\n")
         return check_readme.check(self.root, program)
 
-    def test_known_target(self):
+    def test_target(self):
         self.assertEqual(self.check("make demo"), [])
-
-    def test_unknown_target(self):
         self.found(self.check("make dmeo"), "dmeo")
 
     def test_unknown_verb(self):
