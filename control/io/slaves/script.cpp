@@ -20,6 +20,8 @@ namespace {
 using ethercat::Fault;
 using ethercat::FaultKind;
 
+constexpr std::uint32_t kMaxPpm = 10'000;
+
 // What a line with this fault needs.
 struct Form {
   std::string_view word;
@@ -32,18 +34,22 @@ constexpr std::array<Form, ethercat::kFaultKinds> kForms{
     {{"frames_lost", FaultKind::FramesLost, false, true},
      {"frames_late", FaultKind::FramesLate, false, true, "by"},
      {"frames_doubled", FaultKind::FramesDoubled, false, true},
+     {"frames_swapped", FaultKind::FramesSwapped, false, true},
      {"frames_broken", FaultKind::FramesBroken, true, true},
      {"foreign_frame", FaultKind::ForeignFrame},
      {"wrong_counter", FaultKind::WrongCounter, true, true},
      {"power_off", FaultKind::PowerOff, true, true},
      {"state_refused", FaultKind::StateRefused, true, false, "code"},
+     {"state_slow", FaultKind::StateSlow, true, true, "by"},
      {"state_lost", FaultKind::StateLost, true, false, "code"},
      {"sdo_aborted", FaultKind::SdoAborted, true, false, "code"},
      {"sdo_silence", FaultKind::SdoSilence, true},
+     {"sdo_repeated", FaultKind::SdoRepeated, true, true},
      {"other_identity", FaultKind::OtherIdentity, true, true},
      {"eeprom_busy", FaultKind::EepromBusy, true, true},
      {"emergency", FaultKind::Emergency, true, false, "code"},
      {"clock_jumps", FaultKind::ClockJumps, true, false, "by"},
+     {"clock_drifts", FaultKind::ClockDrifts, true, true, "ppm"},
      {"cable_cut", FaultKind::CableCut, true, true},
      {"value", FaultKind::ObjectSet, true, false, "to"}}};
 
@@ -55,6 +61,8 @@ std::string example_of(const Form& form) {
     text += " by=2ms";
   } else if (form.value == "code") {
     text += " code=0x8611";
+  } else if (form.value == "ppm") {
+    text += " ppm=50";
   } else if (form.value == "to") {
     text += " at=6000:1 to=1";
   }
@@ -160,7 +168,8 @@ class LineReader {
       has_value_ = true;
     } else if (name == "at" && form_->value == "to" && object_of(value)) {
       fault_.object = *object_of(value);
-    } else if (name == form_->value && (name == "to" || name == "code") && number) {
+    } else if (name == form_->value && number &&
+               (name == "to" || name == "code" || (name == "ppm" && *number <= kMaxPpm))) {
       fault_.value = *number;
       has_value_ = true;
     } else {

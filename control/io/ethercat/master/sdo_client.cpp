@@ -28,6 +28,7 @@ void SdoClient::open(std::uint16_t station, const MailboxArea& area) {
   station_ = station;
   area_ = area;
   message_.assign(area.receive_size, 0);
+  received_.assign(area.send_size, 0);
 }
 
 void SdoClient::reset() noexcept {
@@ -36,6 +37,7 @@ void SdoClient::reset() noexcept {
   }
   step_ = Step::Idle;
   counter_ = 0;
+  std::fill(received_.begin(), received_.end(), std::uint8_t{0});
   repeat_ = 0;
   next_poll_ = Clock(0);
 }
@@ -182,8 +184,19 @@ std::optional<Emergency> SdoClient::take_emergency() noexcept {
   return std::exchange(emergency_, std::nullopt);
 }
 
+// The same counter alone does not prove it: slaves with one that never changes exist.
+bool SdoClient::is_repeated(const Mailbox& mailbox, Bytes bytes) noexcept {
+  const auto received = std::span(received_).first(std::min(received_.size(), bytes.size()));
+  const bool is_same = mailbox.counter != 0 && std::equal(received.begin(), received.end(), bytes.begin());
+  std::copy_n(bytes.begin(), received.size(), received.begin());
+  return is_same;
+}
+
 void SdoClient::receive(Bytes bytes) noexcept {
   const auto mailbox = read_mailbox(bytes);
+  if (mailbox && is_repeated(*mailbox, bytes)) {
+    return;
+  }
   const auto service = mailbox ? service_of(*mailbox) : std::nullopt;
   if (service == CoeService::Emergency && mailbox->data.size() >= kValueAt) {
     Emergency emergency;

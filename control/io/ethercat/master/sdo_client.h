@@ -48,6 +48,7 @@ class SdoClient {
   void write_request(Clock now) noexcept;
   void write_segment() noexcept;
   void write_upload_segment() noexcept;
+  [[nodiscard]] bool is_repeated(const Mailbox& mailbox, Bytes bytes) noexcept;
   void receive(Bytes bytes) noexcept;
   void receive_download(unsigned command) noexcept;
   void receive_upload(unsigned command, Bytes data) noexcept;
@@ -58,6 +59,7 @@ class SdoClient {
   std::uint16_t station_ = 0;
   MailboxArea area_;
   std::vector<std::uint8_t> message_;
+  std::vector<std::uint8_t> received_;  // the latest message of the slave
   SdoTransfer* transfer_ = nullptr;
   Step step_ = Step::Idle;
   Step asked_ = Step::Idle;  // what the query on its way is for

@@ -2,12 +2,30 @@
 #include "control/io/ethercat/simulator/bus.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace indurop::io::ethercat {
 
 namespace {
 constexpr std::size_t kProductAt = 0x14;  // in the EEPROM
 constexpr std::size_t kFmmuLogical = reg::kFmmu;
+constexpr std::int64_t kPpm = 1000;  // 1e-9
+
+// What a slave does wrong while it starts.
+void begin_after_restart(const Fault& fault, Slave& slave) {
+  const Time end = fault.at + fault.duration;
+  if (fault.kind == FaultKind::SdoAborted) {
+    slave.sdo().refuse_next(fault.value);
+  } else if (fault.kind == FaultKind::SdoSilence) {
+    slave.sdo().refuse_next(0);
+  } else if (fault.kind == FaultKind::SdoRepeated) {
+    slave.repeat_answers(end);
+  } else if (fault.kind == FaultKind::StateSlow) {
+    slave.slow_down(Time(fault.value), end);
+  } else {
+    slave.esc().hold_eeprom_busy(end);
+  }
+}
 }  // namespace
 
 void SimulatedBus::advance(Time now) {
@@ -59,26 +77,25 @@ void SimulatedBus::begin(const Fault& fault) {
       slave.fall_to(AlState::SafeOp, static_cast<std::uint16_t>(fault.value));
       return;
     case FaultKind::SdoAborted:
-      restart(fault.slave);
-      slave.sdo().refuse_next(fault.value);
-      return;
     case FaultKind::SdoSilence:
+    case FaultKind::SdoRepeated:
+    case FaultKind::StateSlow:
+    case FaultKind::EepromBusy:
       restart(fault.slave);
-      slave.sdo().refuse_next(0);
+      begin_after_restart(fault, slave);
       return;
     case FaultKind::OtherIdentity:
       add_to_product(fault.slave, 1);
       restart(fault.slave);
-      return;
-    case FaultKind::EepromBusy:
-      restart(fault.slave);
-      slave.esc().hold_eeprom_busy(fault.at + fault.duration);
       return;
     case FaultKind::Emergency:
       slave.send_emergency({static_cast<std::uint16_t>(fault.value), 1, {}});
       return;
     case FaultKind::ClockJumps:
       slave.esc().jump_clock(Time(fault.value));
+      return;
+    case FaultKind::ClockDrifts:
+      slave.esc().add_drift(fault.value * kPpm, now_);
       return;
     case FaultKind::ObjectSet: {
       const auto value = slave.objects().storage(static_cast<std::uint16_t>(fault.object >> 8U),
@@ -108,6 +125,8 @@ void SimulatedBus::end(const Fault& fault) {
   }
   if (fault.kind == FaultKind::PowerOff) {
     segment_.set_power(fault.slave, true);
+  } else if (fault.kind == FaultKind::ClockDrifts) {
+    segment_.slave(fault.slave).esc().add_drift(-(fault.value * kPpm), now_);
   } else if (fault.kind == FaultKind::OtherIdentity) {
     add_to_product(fault.slave, 0U - 1U);
   }
@@ -162,6 +181,9 @@ bool SimulatedBus::send(Bytes frame, Segment::End end) noexcept {
     passed->back += Time(late->value);
   }
   arrive(*passed, bytes);
+  if (active(FaultKind::FramesSwapped) != nullptr && arrivals_.size() > 1) {
+    std::swap(arrivals_.back(), arrivals_[arrivals_.size() - 2]);
+  }
   if (active(FaultKind::FramesDoubled) != nullptr) {
     arrive(*passed, bytes);
   }

@@ -18,6 +18,7 @@ enum class FaultKind : std::uint8_t {
   FramesLost,     // all frames, for the duration
   FramesLate,     // all frames, by `value` ns, for the duration
   FramesDoubled,  // all frames, for the duration
+  FramesSwapped,  // each frame comes back before the one that was sent before it, for the duration
   FramesBroken,   // on their way to the slave: its port counts errors
   ForeignFrame,   // one that no one of this bus has sent
   WrongCounter,   // of the slave's process data, for the duration
@@ -26,14 +27,17 @@ enum class FaultKind : std::uint8_t {
   StateLost,      // the slave falls to SAFEOP with `value` as its code
   SdoAborted,     // the slave's next answer is an abort with `value`, after it was restarted
   SdoSilence,     // the slave does not answer the next request, after it was restarted
+  SdoRepeated,    // the slave sends each answer twice, for the duration, after it was restarted
+  StateSlow,      // the slave takes `value` ns for each change of its state, for the duration, after it was restarted
   OtherIdentity,  // the slave's EEPROM has another product code, for the duration, after it was restarted
   EepromBusy,     // for the duration, after the slave was restarted
   Emergency,      // the slave sends one with `value` as its code
   ClockJumps,     // the slave's, forward by `value` ns
+  ClockDrifts,    // the slave's is faster by `value` ppm, for the duration
   CableCut,       // before the slave, or behind the last one, for the duration
   ObjectSet       // no fault: what a sensor of the slave measures; the object becomes `value`
 };
-inline constexpr std::uint8_t kFaultKinds = 17;
+inline constexpr std::uint8_t kFaultKinds = 21;
 
 struct Fault {
   FaultKind kind = FaultKind::FramesLost;

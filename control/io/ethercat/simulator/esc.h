@@ -79,6 +79,8 @@ class Esc {
   // What a slave without a processor does: its state is the one that the master writes.
   [[nodiscard]] bool emulates_device() const noexcept { return (at(reg::kPdiControl + 1U) & 1U) != 0; }
   void jump_clock(Time by) noexcept { clock_adjusted_ += by; }
+  // From now on its clock is so much faster, 1e-9.
+  void add_drift(std::int64_t ppb, Time now) noexcept;
   // How long ago the last pulse of SYNC0 was; nothing if there was none, because none was asked for or its begin was
   // past when it was switched on.
   [[nodiscard]] std::optional<Time> since_pulse(Time now) const noexcept;

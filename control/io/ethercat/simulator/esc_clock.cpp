@@ -14,6 +14,12 @@ Time Esc::local_time(Time now) const noexcept {
   return config_.clock_start + now + Time(drifted) + clock_adjusted_;
 }
 
+void Esc::add_drift(std::int64_t ppb, Time now) noexcept {
+  const Time before = local_time(now);
+  config_.drift_ppb += ppb;
+  clock_adjusted_ += before - local_time(now);
+}
+
 Time Esc::long_time(Time now) const noexcept {
   return local_time(now) + Time(value<std::int64_t>(reg::kSystemTimeOffset));
 }

@@ -181,7 +181,7 @@ void Slave::react(Time now) {
     emulate_state();
     outputs_at_ = now;
   } else if (events.al_control) {
-    state_due_ = now + state_time_;
+    state_due_ = now + (now < slow_until_ ? slow_time_ : state_time_);
   }
   if (events.mailbox) {
     receive_mailbox(now);
@@ -223,6 +223,11 @@ void Slave::fall_to(AlState state, std::uint16_t code) noexcept {
 
 void Slave::refuse_state(AlState state, std::uint16_t code, unsigned times) {
   refusal_ = {state, code, times};
+}
+
+void Slave::slow_down(Time state_time, Time until) noexcept {
+  slow_time_ = state_time;
+  slow_until_ = until;
 }
 
 void Slave::change_state(std::uint8_t request) {

@@ -47,6 +47,10 @@ class Slave {
   void send_emergency(const Emergency& emergency);
   // Refuses the next requests for this state with this code.
   void refuse_state(AlState state, std::uint16_t code, unsigned times);
+  // Takes so long for changes of its state until then.
+  void slow_down(Time state_time, Time until) noexcept;
+  // Sends each answer of its mailbox twice until then, with the same counter.
+  void repeat_answers(Time until) noexcept { repeats_until_ = until; }
   // Falls into this state with this code, as a drive does that detects a fault of its own.
   void fall_to(AlState state, std::uint16_t code) noexcept;
 
@@ -92,6 +96,8 @@ class Slave {
   ObjectDictionary objects_;
   Application application_;
   Time state_time_;
+  Time slow_time_{0};
+  Time slow_until_{0};
   Time mailbox_time_;
   Sii sii_;
   // SyncManagers of the process data; those after a mailbox if the EEPROM names none.
@@ -106,6 +112,7 @@ class Slave {
     std::vector<std::uint8_t> bytes;
   };
   std::deque<Message> answers_;
+  Time repeats_until_{0};
   std::vector<std::uint8_t> last_answer_;
   std::uint8_t last_counter_ = 0;
   std::uint8_t own_counter_ = 0;

@@ -50,6 +50,9 @@ void Slave::answer_with(MailboxType type, Bytes bytes, Time now) {
   std::vector<std::uint8_t> message(kMailboxHeader);
   write_mailbox_header(message, bytes.size(), type, own_counter_);
   message.insert(message.end(), bytes.begin(), bytes.end());
+  if (now < repeats_until_) {
+    answers_.push_back({now + mailbox_time_, message});
+  }
   answers_.push_back({now + mailbox_time_, std::move(message)});
 }
 

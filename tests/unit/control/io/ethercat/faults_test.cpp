@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <random>
 
@@ -33,7 +34,9 @@ bool explains(const Fault& fault, const Event& event) {
     case FaultKind::FramesLost:
     case FaultKind::FramesLate:
     case FaultKind::FramesDoubled:
+    case FaultKind::FramesSwapped:
     case FaultKind::ForeignFrame:
+    case FaultKind::ClockDrifts:
     case FaultKind::ObjectSet:
       return false;
     case FaultKind::FramesBroken:
@@ -50,6 +53,9 @@ bool explains(const Fault& fault, const Event& event) {
       return is_it && is_one_of({Problem::WrongCounter, Problem::Missing, Problem::SdoAborted});
     case FaultKind::SdoSilence:
       return is_it && is_one_of({Problem::WrongCounter, Problem::Missing, Problem::SdoTimeout});
+    case FaultKind::SdoRepeated:
+    case FaultKind::StateSlow:
+      return is_it && is_one_of({Problem::WrongCounter, Problem::Missing});
     case FaultKind::OtherIdentity:
       return is_it && is_one_of({Problem::WrongCounter, Problem::Missing, Problem::WrongIdentity});
     case FaultKind::EepromBusy:
@@ -94,6 +100,8 @@ class FaultyPlant {
         return now.late > before.late;
       case FaultKind::FramesDoubled:
         return now.duplicates > before.duplicates;
+      case FaultKind::FramesSwapped:
+        return now.lost == before.lost && now.foreign == before.foreign;
       case FaultKind::FramesBroken:
         return now.lost > before.lost && plant.slave(fault.slave).esc().at(reg::kRxErrors) > 0;
       case FaultKind::ForeignFrame:
@@ -111,6 +119,10 @@ class FaultyPlant {
         return has(fault.slave, Problem::SdoAborted, fault.value);
       case FaultKind::SdoSilence:
         return plant.happened(fault.slave, Problem::SdoTimeout);
+      case FaultKind::SdoRepeated:
+        return plant.happened(fault.slave, Problem::None) && !plant.happened(fault.slave, Problem::SdoAborted);
+      case FaultKind::StateSlow:
+        return is_back_after(fault.slave, fault.at + Time(fault.value));
       case FaultKind::OtherIdentity:
         return plant.happened(fault.slave, Problem::WrongIdentity);
       case FaultKind::EepromBusy:
@@ -119,8 +131,10 @@ class FaultyPlant {
         return has(fault.slave, Problem::EmergencySent, fault.value);
       case FaultKind::ClockJumps:
         return plant.happened(fault.slave, Problem::ClockNotInStep);
-      case FaultKind::CableCut:
-        return plant.happened(fault.slave, Problem::Missing);
+      case FaultKind::ClockDrifts:
+        return !plant.happened(fault.slave, Problem::ClockNotInStep);  // the master makes up for so little
+      case FaultKind::CableCut:                                        // before the first slave all frames are lost
+        return plant.happened(fault.slave, Problem::Missing) || (fault.slave == 0 && now.lost > before.lost);
       case FaultKind::ObjectSet:
         return true;
     }
@@ -154,6 +168,14 @@ class FaultyPlant {
     }
     return false;
   }
+  [[nodiscard]] bool is_back_after(std::size_t slave, Time time) const {
+    for (const Event& event : plant.events()) {
+      if (event.slave == slave && event.problem == Problem::None) {
+        return event.time > time;
+      }
+    }
+    return false;
+  }
   void check_outputs() {
     for (std::size_t k = 0; k < plant.master().size(); ++k) {
       const auto& applied = plant.applied(k);
@@ -181,6 +203,55 @@ TEST(Faults, Each_kind_is_named_and_everything_recovers) {
     EXPECT_TRUE(sut.is_named(fault)) << "kind " << int{kind} << ", slave " << fault.slave << "\n" << sut.plant.story();
     EXPECT_TRUE(sut.plant.all_operate()) << "kind " << int{kind} << "\n" << sut.plant.story();
   }
+}
+
+TEST(Faults, Swapped_frames_come_back_in_the_other_order) {
+  SimulatedBus sut;
+  sut.segment().add(drive_config());
+  Fault fault;
+  fault.kind = FaultKind::FramesSwapped;
+  fault.duration = kTick;
+  sut.add_fault(fault);
+  const auto order = [&sut](Clock now) {
+    sut.advance(now);
+    for (std::uint8_t index = 1; index <= 2; ++index) {
+      FrameBuilder builder(kMasterMac);
+      builder.add(Command::Brd, index, address_of(0, reg::kAlStatus), 2);
+      sut.send(builder.finish());
+    }
+    sut.advance(now + kTick / 2);
+    std::vector<int> indices;
+    std::array<std::uint8_t, kMaxFrame> bytes{};
+    for (std::size_t size = sut.receive(bytes); size > 0; size = sut.receive(bytes)) {
+      FrameReader reader(Bytes(bytes).first(size));
+      Datagram datagram;
+      indices.push_back(reader.next(datagram) ? datagram.index : -1);
+    }
+    return indices;
+  };
+  EXPECT_THAT(order(Clock{0}), testing::ElementsAre(2, 1));
+  EXPECT_THAT(order(kTick), testing::ElementsAre(1, 2)) << "it is over";
+}
+
+// Beyond what the chip's clock can make up for, a thousandth.
+TEST(Faults, A_clock_that_drifts_too_much_leaves_the_reference_and_comes_back) {
+  FaultyPlant sut(3);
+  Fault fault;
+  fault.kind = FaultKind::ClockDrifts;
+  fault.slave = 1;
+  fault.at = sut.plant.now() + kTick;
+  fault.duration = std::chrono::milliseconds(500);
+  fault.value = 3000;
+  sut.plant.bus().add_fault(fault);
+  const auto difference = [&sut](std::size_t slave) {
+    return sut.plant.slave(slave).esc().value<std::uint32_t>(reg::kSystemTimeDifference) & 0x7FFFFFFFU;
+  };
+  sut.run(12);
+  EXPECT_GT(difference(1), 10'000U) << "2 us in each tick";
+  EXPECT_LT(difference(2), 1000U);
+  sut.run(4000);
+  EXPECT_LT(difference(1), 1000U);
+  EXPECT_TRUE(sut.plant.all_operate()) << sut.plant.story();
 }
 
 TEST(Faults, Random_scripts_recover_without_an_output_beyond_its_limits) {

@@ -27,6 +27,17 @@ inline Fault random_fault(std::mt19937& random, std::size_t slaves, FaultKind ki
     case FaultKind::OtherIdentity:
       fault.duration = std::chrono::milliseconds(300 + random() % 300);
       break;
+    case FaultKind::SdoRepeated:
+      fault.duration = std::chrono::milliseconds(300 + random() % 300);
+      break;
+    case FaultKind::StateSlow:
+      fault.duration = std::chrono::milliseconds(300 + random() % 300);
+      fault.value = static_cast<std::uint32_t>(100'000'000 + random() % 100'000'000);
+      break;
+    case FaultKind::ClockDrifts:
+      fault.duration = std::chrono::milliseconds(100 + random() % 400);
+      fault.value = static_cast<std::uint32_t>(20 + random() % 80);
+      break;
     case FaultKind::StateRefused:
     case FaultKind::StateLost:
       fault.value = 0x8001U + static_cast<std::uint32_t>(random() % 100);

@@ -20,10 +20,14 @@ TEST(Script, Lines_say_when_what_to_which_slave_and_for_how_long) {
       "  2.5s  power_off slave=1 for=400ms   # pulled\n"
       "3s frames_late for=5ms by=2ms\n"
       "4s emergency slave=0 code=0x8611\n"
-      "5s value slave=1 at=6000:1a to=1\n",
+      "5s value slave=1 at=6000:1a to=1\n"
+      "6s state_slow slave=0 for=1s by=300ms\n"
+      "7s clock_drifts slave=1 for=2s ppm=100\n",
       "faults", 2);
   EXPECT_EQ(base::to_text(sut.diagnostics), "");
-  ASSERT_EQ(sut.faults.size(), 5U);
+  ASSERT_EQ(sut.faults.size(), 7U);
+  EXPECT_EQ(sut.faults[5].value, 300'000'000U);
+  EXPECT_EQ(sut.faults[6].value, 100U);
   EXPECT_EQ(sut.faults[4].object, 0x60001AU);
   EXPECT_EQ(sut.faults[4].value, 1U);
   EXPECT_EQ(sut.faults[0].kind, FaultKind::FramesLost);
@@ -58,6 +62,9 @@ TEST(Script, Wrong_lines_are_named_with_their_place_and_what_to_write) {
             "faults:1:14: error: 'slave=2' is not possible here; power_off is written so: power_off slave=0 for=5ms, "
             "with a slave from 0 to 1\n");
   EXPECT_EQ(said("2s cable_cut slave=2 for=5ms"), "") << "behind the last one";
+  EXPECT_EQ(said("2s clock_drifts slave=0 for=1s ppm=20000"),
+            "faults:1:32: error: 'ppm=20000' is not possible here; clock_drifts is written so: clock_drifts slave=0 "
+            "for=5ms ppm=50\n");
   EXPECT_EQ(said("2s value slave=0 to=1"), "faults:1:4: error: value is written so: value slave=0 at=6000:1 to=1\n");
   EXPECT_EQ(said("2s frames_lost for=5x"),
             "faults:1:16: error: 'for=5x' is not possible here; frames_lost is written so: frames_lost for=5ms\n");
