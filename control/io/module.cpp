@@ -57,7 +57,7 @@ io::Dispatcher::MakeWires simulation() {
     return {};
   }
   return [](const config::IoConfig& config) {
-    return io::ecsim::simulated_wires(config, [] { return runtime::virtual_ns().value_or(0); });
+    return io::slaves::simulated_wires(config, [] { return runtime::virtual_ns().value_or(0); });
   };
 }
 

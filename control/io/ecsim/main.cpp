@@ -27,6 +27,10 @@
 namespace indurop::io::ecsim {
 namespace {
 
+using slaves::read_script;
+using slaves::read_slave_word;
+using slaves::Script;
+using slaves::SlaveModel;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
@@ -242,7 +246,7 @@ int main(int argc, char** argv) {
   app.add("--ring", "INTERFACE", setup.ring, "Interface at the other end of the cable, for a ring");
   app.add("--script", "FILE", setup.script, "Faults that happen at their time").completes(base::Completion::File);
   app.add("--pcap", "FILE", setup.pcap, "Write all frames, for Wireshark").completes(base::Completion::File);
-  app.details(io::ecsim::kDetails + io::ecsim::script_help());
+  app.details(io::ecsim::kDetails + io::slaves::script_help());
   app.exit_codes({kOk, kFailed, kUsage});
   if (const auto code = app.parse_program(argc, argv)) {
     return *code;

@@ -8,7 +8,7 @@
 
 #include "control/io/ethercat/simulator/sii_image.h"
 
-namespace indurop::io::ecsim {
+namespace indurop::io::slaves {
 
 namespace {
 
@@ -184,4 +184,4 @@ void Drive::compute(Bytes outputs, std::span<std::uint8_t> inputs, ethercat::Tim
   mapped_->give(inputs);
 }
 
-}  // namespace indurop::io::ecsim
+}  // namespace indurop::io::slaves

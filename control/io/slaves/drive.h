@@ -10,7 +10,7 @@
 #include "control/io/ethercat/simulator/mapped_objects.h"
 #include "control/io/ethercat/simulator/slave.h"
 
-namespace indurop::io::ecsim {
+namespace indurop::io::slaves {
 
 class Drive {
  public:
@@ -30,4 +30,4 @@ class Drive {
   ethercat::Time last_{0};
 };
 
-}  // namespace indurop::io::ecsim
+}  // namespace indurop::io::slaves

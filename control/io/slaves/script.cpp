@@ -13,7 +13,7 @@
 #include "core/base/duration.h"
 #include "core/base/text.h"
 
-namespace indurop::io::ecsim {
+namespace indurop::io::slaves {
 
 namespace {
 
@@ -218,4 +218,4 @@ Script read_script(const std::string& text, const std::filesystem::path& file, s
   return script;
 }
 
-}  // namespace indurop::io::ecsim
+}  // namespace indurop::io::slaves

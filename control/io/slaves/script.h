@@ -10,7 +10,7 @@
 #include "control/io/ethercat/simulator/bus.h"
 #include "core/base/diagnostic.h"
 
-namespace indurop::io::ecsim {
+namespace indurop::io::slaves {
 
 // The forms of a line, for help.
 std::string script_help();
@@ -22,4 +22,4 @@ struct Script {
 // `slaves`: how many there are.
 Script read_script(const std::string& text, const std::filesystem::path& file, std::size_t slaves);
 
-}  // namespace indurop::io::ecsim
+}  // namespace indurop::io::slaves

@@ -13,7 +13,7 @@
 #include "core/base/read_file.h"
 #include "core/base/text.h"
 
-namespace indurop::io::ecsim {
+namespace indurop::io::slaves {
 
 namespace {
 
@@ -114,4 +114,4 @@ Result<EthercatWires, std::vector<base::Diagnostic>> simulated_wires(const confi
                        true};
 }
 
-}  // namespace indurop::io::ecsim
+}  // namespace indurop::io::slaves

@@ -17,7 +17,7 @@
 #include "control/io/slaves/slave_word.h"
 #include "core/base/diagnostic.h"
 
-namespace indurop::io::ecsim {
+namespace indurop::io::slaves {
 
 // Virtual time in ns; it never goes back.
 using VirtualClock = std::function<std::int64_t()>;
@@ -55,4 +55,4 @@ class SimulatedWire final : public ethercat::Wire {
 Result<EthercatWires, std::vector<base::Diagnostic>> simulated_wires(const config::IoConfig& config,
                                                                      const VirtualClock& clock);
 
-}  // namespace indurop::io::ecsim
+}  // namespace indurop::io::slaves

@@ -17,7 +17,7 @@
 #include "core/base/read_file.h"
 #include "core/base/text.h"
 
-namespace indurop::io::ecsim {
+namespace indurop::io::slaves {
 
 namespace {
 
@@ -136,4 +136,4 @@ Result<SlaveModel, std::string> read_slave_word(const std::string& word, const s
   return device_of_esi(folder / word.substr(0, colon), colon == std::string::npos ? "" : word.substr(colon + 1));
 }
 
-}  // namespace indurop::io::ecsim
+}  // namespace indurop::io::slaves

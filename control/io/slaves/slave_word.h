@@ -11,7 +11,7 @@
 
 #include "control/io/ethercat/simulator/slave.h"
 
-namespace indurop::io::ecsim {
+namespace indurop::io::slaves {
 
 struct SlaveModel {
   ethercat::SlaveConfig config;
@@ -25,4 +25,4 @@ struct SlaveModel {
 // start at the folder. Errors: what is wrong with the word, or with the file.
 Result<SlaveModel, std::string> read_slave_word(const std::string& word, const std::filesystem::path& folder = {});
 
-}  // namespace indurop::io::ecsim
+}  // namespace indurop::io::slaves

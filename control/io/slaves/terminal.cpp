@@ -7,7 +7,7 @@
 
 #include "control/io/ethercat/simulator/sii_image.h"
 
-namespace indurop::io::ecsim {
+namespace indurop::io::slaves {
 
 namespace {
 
@@ -57,4 +57,4 @@ void Terminal::compute(ethercat::Bytes outputs, std::span<std::uint8_t> inputs) 
   mapped_->give(inputs);
 }
 
-}  // namespace indurop::io::ecsim
+}  // namespace indurop::io::slaves

@@ -10,7 +10,7 @@
 #include "control/io/ethercat/simulator/mapped_objects.h"
 #include "control/io/ethercat/simulator/slave.h"
 
-namespace indurop::io::ecsim {
+namespace indurop::io::slaves {
 
 class Terminal {
  public:
@@ -24,4 +24,4 @@ class Terminal {
   std::optional<ethercat::MappedObjects> mapped_;
 };
 
-}  // namespace indurop::io::ecsim
+}  // namespace indurop::io::slaves

@@ -23,7 +23,7 @@
 namespace indurop::io::ethercat {
 
 inline std::vector<SlavePlan> plans_of_drives(std::size_t count) {
-  const auto sii = read_sii(ecsim::Drive::slave().esc.eeprom);
+  const auto sii = read_sii(slaves::Drive::slave().esc.eeprom);
   std::vector<SlavePlan> plans;
   std::uint32_t logical = 0x10000;
   for (std::size_t i = 0; i < count; ++i) {

@@ -254,7 +254,7 @@ TEST_F(Veth, The_mapping_is_written_as_tshark_reads_it) {
   const std::vector<WantedObject> outputs = {
       {0x6040, 0, 0, 0}, {0x6060, 0, 0, 0}, {0x6071, 0, 0, 0}, {0x60B8, 0, 16, 6}};
   const std::vector<WantedObject> inputs = {{0x6041, 0, 0, 0}, {0x6064, 0, 0, 0}, {0x6077, 0, 0, 0}};
-  const auto sii = read_sii(ecsim::Drive::slave().esc.eeprom);
+  const auto sii = read_sii(slaves::Drive::slave().esc.eeprom);
   ASSERT_TRUE(sii);
   const auto mapped = map_objects(*sii, outputs, inputs);
   ASSERT_TRUE(mapped);

@@ -192,7 +192,7 @@ TEST(Esi, The_schema_of_the_group_accepts_our_samples) {
 class EsiSlave : public testing::Test {
  protected:
   Slave& add(const std::string& word) {
-    auto model = ecsim::read_slave_word(word);
+    auto model = slaves::read_slave_word(word);
     EXPECT_TRUE(model) << model.error();
     Slave& slave = bus_.segment().add(std::move(model->config),
                                       [this, compute = model->compute](Bytes outputs, std::span<std::uint8_t> inputs) {
@@ -255,7 +255,7 @@ TEST_F(EsiSlave, Takes_the_mapping_of_its_master) {
 
 TEST(EsiWords, What_is_no_slave_is_said) {
   const auto said = [](const std::string& word) {
-    const auto model = ecsim::read_slave_word(word);
+    const auto model = slaves::read_slave_word(word);
     return model ? std::string() : model.error();
   };
   EXPECT_EQ(said("drive"), "");

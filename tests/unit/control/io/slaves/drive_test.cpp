@@ -7,7 +7,7 @@
 #include "control/io/ethercat/master/master.h"
 #include "control/io/ethercat/simulator/bus.h"
 
-namespace indurop::io::ecsim {
+namespace indurop::io::slaves {
 namespace {
 
 using namespace ethercat;
@@ -64,4 +64,4 @@ TEST(EcsimDrive, Moves_as_its_master_commands) {
 }
 
 }  // namespace
-}  // namespace indurop::io::ecsim
+}  // namespace indurop::io::slaves

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace indurop::io::ecsim {
+namespace indurop::io::slaves {
 namespace {
 
 using ethercat::FaultKind;
@@ -71,4 +71,4 @@ TEST(Script, Wrong_lines_are_named_with_their_place_and_what_to_write) {
 }
 
 }  // namespace
-}  // namespace indurop::io::ecsim
+}  // namespace indurop::io::slaves
