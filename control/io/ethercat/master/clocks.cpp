@@ -31,6 +31,7 @@ void Clocks::found(std::size_t place, Clock now) noexcept {
   if (place < slaves_.size()) {
     slaves_[place].is_set = false;
     slaves_[place].close_reads = 0;
+    slaves_[place].was_in_step = false;
     restart(now);
   }
 }
@@ -190,10 +191,11 @@ void Clocks::take(Bytes data) noexcept {
       const auto word = load<std::uint32_t>(data, 0);
       const auto size = static_cast<std::int32_t>(word & ~kBehind);
       slave.difference = (word & kBehind) != 0 ? -size : size;
-      if (size > kFarNs && slave.close_reads >= kCloseReads) {
+      if (size > kFarNs && std::exchange(slave.was_in_step, false)) {
         lost_ = Lost{place_, slave.difference};
       }
       slave.close_reads = size < kCloseNs ? slave.close_reads + 1 : 0;
+      slave.was_in_step = slave.was_in_step || slave.close_reads >= kCloseReads;
       return;
     }
     default:

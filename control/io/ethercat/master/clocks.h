@@ -72,6 +72,7 @@ class Clocks {
     bool is_set = false;
     std::int32_t difference = 0;
     unsigned close_reads = 0;  // of the difference, one after another
+    bool was_in_step = false;  // since its clock was set
   };
 
   void restart(Clock now) noexcept;
