@@ -97,6 +97,10 @@ endfunction()
 # A GoogleTest program: indurop_test(<name> LABEL unit SOURCES ... LIBRARIES ...)
 # A folder may set INDUROP_TEST_HEADERS to an object library that made other precompiled headers.
 set(INDUROP_TEST_HEADERS indurop_test_headers)
+set(INDUROP_TEST_TIMEOUT 120)  # s
+if(INDUROP_SANITIZE)
+  set(INDUROP_TEST_TIMEOUT 900)
+endif()
 function(indurop_test name)
   cmake_parse_arguments(arg "" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
@@ -106,7 +110,8 @@ function(indurop_test name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests INDUROP_LABEL ${arg_LABEL})
   target_precompile_headers(${name} REUSE_FROM ${INDUROP_TEST_HEADERS})
   indurop_unity(${name})
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${arg_LABEL} TIMEOUT 120)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${INDUROP_TEST_TIMEOUT})
 endfunction()
 
 # The same programs above core/rt/posix/ instead of the system that was chosen: nothing but the linker has work to do.
@@ -118,6 +123,6 @@ function(indurop_tests_above_posix)
     target_link_libraries(${name}_posix PRIVATE $<LINK_LIBRARY:WHOLE_ARCHIVE,indurop_rt_posix> ${libraries})
     set_target_properties(${name}_posix PROPERTIES LINKER_LANGUAGE CXX RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     gtest_discover_tests(${name}_posix TEST_PREFIX posix. DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-      PROPERTIES LABELS ${labels} TIMEOUT 120)
+      PROPERTIES LABELS ${labels} TIMEOUT ${INDUROP_TEST_TIMEOUT})
   endforeach()
 endfunction()
