@@ -42,6 +42,7 @@ constexpr const char* kDetails = R"(A SLAVE is
                                alias, by which a master can find it
   el2004.bin                   the device of this EEPROM
   terminals.xml:EL2004         the device of a maker's file (ESI); without :EL2004 if it has one
+  drive@1.3                    any of these at port 3 of slave 1, instead of behind the slave before
 Devices of files keep the values of their outputs and send those of their inputs, which a
 script sets.
 
@@ -73,13 +74,9 @@ class Simulation {
     last_end_ = &bus_.make_ring();
   }
 
-  void add(SlaveModel model) {
-    ethercat::Slave& slave = bus_.segment().add(
-        std::move(model.config),
-        [this, compute = std::move(model.compute)](ethercat::Bytes outputs, std::span<std::uint8_t> inputs) {
-          compute(outputs, inputs, now());
-        });
-    model.attach(slave);
+  // Returns what is wrong with its place on the cable, empty: nothing.
+  std::string add(SlaveModel model) {
+    return slaves::add_slave(bus_.segment(), std::move(model), [this] { return now(); });
   }
 
   // Their times count from the first frame, or from now if it has come.
@@ -215,7 +212,9 @@ int run(const Setup& setup) {
     if (!model) {
       return fail(model.error());
     }
-    simulation.add(std::move(*model));
+    if (const std::string wrong = simulation.add(std::move(*model)); !wrong.empty()) {
+      return fail(wrong);
+    }
   }
   if (setup.script == "-") {
     simulation.read_faults_from(STDIN_FILENO);

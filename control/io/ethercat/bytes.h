@@ -24,7 +24,7 @@ constexpr T load(Bytes bytes, std::size_t at) noexcept {
 
 template <class T>
 constexpr void store(std::span<std::uint8_t> bytes, std::size_t at, T value) noexcept {
-  const std::uint64_t wide = static_cast<std::make_unsigned_t<T>>(value);
+  const auto wide = std::uint64_t{static_cast<std::make_unsigned_t<T>>(value)};
   for (std::size_t i = 0; i < sizeof(T); ++i) {
     bytes[at + i] = static_cast<std::uint8_t>(wide >> (8U * i));
   }

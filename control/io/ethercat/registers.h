@@ -52,6 +52,7 @@ inline constexpr std::uint16_t kSync1Cycle = 0x09A4;
 inline constexpr std::uint16_t kMemory = 0x1000;  // process data and mailboxes
 }  // namespace reg
 
+inline constexpr std::size_t kPorts = 4;  // of a slave
 inline constexpr std::uint16_t kFmmuBytes = 16;
 inline constexpr std::uint16_t kSyncManagerBytes = 8;
 

@@ -47,7 +47,9 @@ std::unique_ptr<SimulatedWire> wire_of(const config::IoSimulation& simulation, c
       report.error(simulation.slaves_place, model.error());
       continue;
     }
-    wire->add(std::move(*model));
+    if (const std::string wrong_place = wire->add(std::move(*model)); !wrong_place.empty()) {
+      report.error(simulation.slaves_place, wrong_place);
+    }
   }
   wire->set_faults(faults_of(simulation, report, wrong));
   return wire;
@@ -61,13 +63,8 @@ SimulatedWire::SimulatedWire(VirtualClock clock, bool is_ring) : clock_(std::mov
   }
 }
 
-void SimulatedWire::add(SlaveModel model) {
-  ethercat::Slave& slave = bus_.segment().add(
-      std::move(model.config),
-      [this, compute = std::move(model.compute)](ethercat::Bytes outputs, std::span<std::uint8_t> inputs) {
-        compute(outputs, inputs, time_);
-      });
-  model.attach(slave);
+std::string SimulatedWire::add(SlaveModel model) {
+  return add_slave(bus_.segment(), std::move(model), [this] { return time_; });
 }
 
 void SimulatedWire::pass(ethercat::Clock time) noexcept {

@@ -26,7 +26,8 @@ class SimulatedWire final : public ethercat::Wire {
  public:
   SimulatedWire(VirtualClock clock, bool is_ring);
 
-  void add(SlaveModel model);
+  // Returns what is wrong with its place on the cable, empty: nothing.
+  std::string add(SlaveModel model);
   // Times count from the first tick: the first now() after virtual time has passed.
   void set_faults(std::vector<ethercat::Fault> faults) { faults_ = std::move(faults); }
 

@@ -122,9 +122,19 @@ Model device_of_eeprom(const std::filesystem::path& file) {
   return terminal_of(Terminal::slave(*sii, std::move(bytes)));
 }
 
-}  // namespace
+// "1.3": port 3 of slave 1.
+std::optional<ethercat::Segment::Outlet> outlet_of(std::string_view text) {
+  ethercat::Segment::Outlet outlet;
+  const char* const end = text.data() + text.size();
+  const auto slave = std::from_chars(text.data(), end, outlet.slave);
+  if (slave.ec != std::errc() || slave.ptr == end || *slave.ptr != '.') {
+    return std::nullopt;
+  }
+  const auto port = std::from_chars(slave.ptr + 1, end, outlet.port);
+  return port.ec == std::errc() && port.ptr == end ? std::optional(outlet) : std::nullopt;
+}
 
-Result<SlaveModel, std::string> read_slave_word(const std::string& word, const std::filesystem::path& folder) {
+Model device_of(const std::string& word, const std::filesystem::path& folder) {
   if (word == kDrive || word.starts_with("drive:")) {
     return drive_of(std::string_view(word).substr(std::min(kDrive.size() + 1, word.size())));
   }
@@ -134,6 +144,43 @@ Result<SlaveModel, std::string> read_slave_word(const std::string& word, const s
   }
   const std::size_t colon = word.find(':', end);
   return device_of_esi(folder / word.substr(0, colon), colon == std::string::npos ? "" : word.substr(colon + 1));
+}
+
+}  // namespace
+
+Result<SlaveModel, std::string> read_slave_word(const std::string& word, const std::filesystem::path& folder) {
+  const std::size_t at = word.rfind('@');
+  if (at == std::string::npos || word.find('/', at) != std::string::npos) {
+    return device_of(word, folder);
+  }
+  const auto outlet = outlet_of(std::string_view(word).substr(at + 1));
+  if (!outlet) {
+    return fmt::format("{} is no place on the cable; write drive@1.3 for a drive at port 3 of slave 1",
+                       base::in_quotes(std::string_view(word).substr(at)));
+  }
+  auto model = device_of(word.substr(0, at), folder);
+  if (model) {
+    model->outlet = outlet;
+  }
+  return model;
+}
+
+std::string add_slave(ethercat::Segment& segment, SlaveModel model, std::function<ethercat::Time()> now) {
+  auto application = [now = std::move(now), compute = std::move(model.compute)](
+                         ethercat::Bytes outputs, std::span<std::uint8_t> inputs) { compute(outputs, inputs, now()); };
+  if (!model.outlet) {
+    model.attach(segment.add(std::move(model.config), std::move(application)));
+    return {};
+  }
+  if (!segment.can_add(*model.outlet)) {
+    return fmt::format(
+        "slave {} cannot be at port {} of slave {}: the port has to be 1, 2 or 3 and free, and slaves are named in the "
+        "order in which a frame passes them, which leaves each slave through its ports 3, 1 and 2; a ring has no "
+        "branches",
+        segment.size(), model.outlet->port, model.outlet->slave);
+  }
+  model.attach(segment.add(std::move(model.config), std::move(application), *model.outlet));
+  return {};
 }
 
 }  // namespace indurop::io::slaves

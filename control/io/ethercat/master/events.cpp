@@ -16,8 +16,9 @@ std::string words(const Event& event) {
     case Problem::Missing:
       return "does not answer; check its power and the cable before it";
     case Problem::Moved:
-      return fmt::format("station {:04x}h answers at its position; a slave before it is missing or was added",
-                         event.detail);
+      return fmt::format(
+          "station {:04x}h answers at its position; it or a slave before it is missing, or one was added",
+          event.detail);
     case Problem::WrongIdentity:
       return fmt::format("another device is at its position: product code {:08x}h", event.detail);
     case Problem::WrongAlias:

@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-namespace indurop::io::ethercat {
+#include "control/io/ethercat/registers.h"
 
-inline constexpr std::size_t kPorts = 4;
+namespace indurop::io::ethercat {
 
 struct PortTimes {
   bool has_clock = false;  // without one there are no times

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -15,6 +16,8 @@
 namespace indurop::io::ethercat {
 
 using Time = std::chrono::nanoseconds;  // virtual, since the simulation began
+// When a frame came in at each port; nothing where no slave is linked.
+using Arrivals = std::array<std::optional<Time>, kPorts>;
 
 struct EscConfig {
   std::uint8_t type = 0x11;
@@ -55,8 +58,8 @@ class Esc {
   bool write(std::uint16_t offset, Bytes from, Time now);
   bool read_logical(std::uint32_t address, std::span<std::uint8_t> to, Time now);
   bool write_logical(std::uint32_t address, Bytes from);
-  // A write to the receive times passed the processing unit, and came back through the next port.
-  void latch_receive_times(Time in, Time back) noexcept;
+  // A frame with a write to the receive times passed.
+  void latch_receive_times(const Arrivals& arrivals) noexcept;
 
   // Access by the application of the device.
   [[nodiscard]] std::uint8_t at(std::size_t offset) const noexcept { return memory_[offset]; }

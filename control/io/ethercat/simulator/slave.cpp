@@ -57,22 +57,24 @@ void Slave::set_power(bool on) {
   on_ = on;
 }
 
-void Slave::set_ports(bool before, bool after) noexcept {
-  // Ports 0 and 1: link and communication, or a closed loop; the other ports are closed.
-  unsigned status = 0x5000U | dl_status_;
-  status |= before ? 0x0210U : 0x0100U;
-  status |= after ? 0x0820U : 0x0400U;
+void Slave::set_ports(const std::array<bool, kPorts>& open) noexcept {
+  unsigned status = dl_status_;
+  for (unsigned port = 0; port < kPorts; ++port) {
+    // Link and communication, or a closed loop.
+    status |= open[port] ? 0x0010U << port | 0x0200U << (2 * port) : 0x0100U << (2 * port);
+  }
   esc_.set<std::uint16_t>(reg::kDlStatus, static_cast<std::uint16_t>(status));
 }
 
 // --- frames ---
 
-void Slave::process(std::span<std::uint8_t> frame, Time now, Time back) {
+void Slave::process(std::span<std::uint8_t> frame, const Arrivals& arrivals) {
+  const Time now = arrivals[0].value_or(Time{0});
   advance_device(now);
   FrameReader reader(frame);
   Datagram datagram;
   while (reader.next(datagram)) {
-    run_datagram(datagram, frame, now, back);
+    run_datagram(datagram, frame, arrivals);
     react(now);
   }
   // A slave without outputs measures for each frame.
@@ -85,7 +87,7 @@ bool Slave::is_station(std::uint16_t address) const noexcept {
          (alias && address == esc_.value<std::uint16_t>(reg::kAlias));
 }
 
-void Slave::run_datagram(const Datagram& datagram, std::span<std::uint8_t> frame, Time now, Time back) {
+void Slave::run_datagram(const Datagram& datagram, std::span<std::uint8_t> frame, const Arrivals& arrivals) {
   const auto address = static_cast<std::uint16_t>(datagram.address);
   const auto offset = static_cast<std::uint16_t>(datagram.address >> 16U);
   bool by_position = false;
@@ -98,7 +100,7 @@ void Slave::run_datagram(const Datagram& datagram, std::span<std::uint8_t> frame
     case Command::Lrd:
     case Command::Lwr:
     case Command::Lrw:
-      access_logical(datagram, frame, now);
+      access_logical(datagram, frame, arrivals[0].value_or(Time{0}));
       return;
     case Command::Aprd:
     case Command::Apwr:
@@ -133,9 +135,9 @@ void Slave::run_datagram(const Datagram& datagram, std::span<std::uint8_t> frame
   }
   if (is_mine) {
     if (writes && offset == reg::kReceiveTimes) {
-      esc_.latch_receive_times(now, back);
+      esc_.latch_receive_times(arrivals);
     }
-    access(datagram, frame, reads, writes, now);
+    access(datagram, frame, reads, writes, arrivals[0].value_or(Time{0}));
   }
 }
 

@@ -35,14 +35,14 @@ class Slave {
 
   explicit Slave(SlaveConfig config, Application application = {});
 
-  // A frame passes: `now` when it comes, `back` when it returns through the next port.
-  void process(std::span<std::uint8_t> frame, Time now, Time back);
+  // A frame passes, and comes in at each linked port at this time; first at port 0.
+  void process(std::span<std::uint8_t> frame, const Arrivals& arrivals);
   // Runs the application if a frame brought outputs or another state. The frame has left by then, as with a real
   // slave: what the application computes goes into later frames.
   void compute();
   void set_power(bool on);
-  // Whether something is linked before it (the master or another slave), and after it.
-  void set_ports(bool before, bool after) noexcept;
+  // The ports to which something is linked: the master or another slave.
+  void set_ports(const std::array<bool, kPorts>& open) noexcept;
 
   void send_emergency(const Emergency& emergency);
   // Refuses the next requests for this state with this code.
@@ -71,7 +71,7 @@ class Slave {
     std::uint16_t length = 0;
   };
 
-  void run_datagram(const Datagram& datagram, std::span<std::uint8_t> frame, Time now, Time back);
+  void run_datagram(const Datagram& datagram, std::span<std::uint8_t> frame, const Arrivals& arrivals);
   [[nodiscard]] bool is_station(std::uint16_t address) const noexcept;
   void access(const Datagram& datagram, std::span<std::uint8_t> frame, bool reads, bool writes, Time now);
   void access_logical(const Datagram& datagram, std::span<std::uint8_t> frame, Time now);

@@ -253,6 +253,19 @@ TEST_F(EsiSlave, Takes_the_mapping_of_its_master) {
   EXPECT_EQ(slave.objects().number(0x6071, 0), 0xFFFBU);
 }
 
+TEST(EsiWords, A_slave_is_refused_where_a_frame_does_not_pass_it_next) {
+  Segment sut;
+  const auto added = [&sut](const std::string& word) {
+    return slaves::add_slave(sut, *slaves::read_slave_word(word), [] { return Time{0}; });
+  };
+  EXPECT_EQ(added("drive"), "");
+  EXPECT_EQ(added("drive@0.3"), "");
+  EXPECT_EQ(added("drive"), "") << "behind slave 1";
+  EXPECT_EQ(added("drive@0.1"), "");
+  EXPECT_THAT(added("drive@1.2"), testing::StartsWith("slave 4 cannot be at port 2 of slave 1: "));
+  EXPECT_EQ(sut.size(), 4U);
+}
+
 TEST(EsiWords, What_is_no_slave_is_said) {
   const auto said = [](const std::string& word) {
     const auto model = slaves::read_slave_word(word);
@@ -266,6 +279,13 @@ TEST(EsiWords, What_is_no_slave_is_said) {
   EXPECT_THAT(said(ESI_TERMINALS), testing::HasSubstr("it has 2 devices; write which one, "));
   EXPECT_THAT(said(std::string(ESI_TERMINALS) + ":SAMPLE-DI"),
               testing::HasSubstr("it has no device 'SAMPLE-DI'; did you mean 'SAMPLE-DI16'?"));
+  EXPECT_EQ(said("drive@1.3"), "");
+  EXPECT_EQ(said("drive:speed=5@0.2"), "");
+  for (const std::string place : {"@", "@1", "@1.", "@1.3.1", "@-1.3", "@a.1"}) {
+    EXPECT_EQ(said("drive" + place),
+              "'" + place + "' is no place on the cable; write drive@1.3 for a drive at port 3 of slave 1");
+  }
+  EXPECT_THAT(said("/nowhere@home/a.bin"), testing::HasSubstr("write 'drive', or a file"));
   EXPECT_THAT(said("/nowhere.bin"), testing::HasSubstr("write 'drive', or a file with the EEPROM or the description"));
 }
 
