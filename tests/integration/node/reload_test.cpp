@@ -366,8 +366,8 @@ TEST_F(Reload, Two_hundred_exchanges_leave_out_nothing_and_leave_nothing_behind)
     return pages;
   };
   constexpr int kExchanges = 200;
-  std::size_t maps_before = 0;
-  std::size_t resident_before = 0;
+  [[maybe_unused]] std::size_t maps_before = 0;
+  [[maybe_unused]] std::size_t resident_before = 0;
   for (int i = 0; i < kExchanges; ++i) {
     const Outcome done = reload({"counter", built(i % 2 == 0 ? "other" : "same"), "--health", "0s"});
     ASSERT_EQ(done.code, 0) << i << done.err;
@@ -376,8 +376,10 @@ TEST_F(Reload, Two_hundred_exchanges_leave_out_nothing_and_leave_nothing_behind)
       resident_before = resident();
     }
   }
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they keep what was freed
   EXPECT_TRUE(wait_until([&] { return maps() <= maps_before + 8; })) << maps_before << " " << maps();
   EXPECT_LE(resident(), resident_before + 64) << "pages";
+#endif
   EXPECT_EQ(module("counter").kept_loaded.load(), 0U);
   expect_all_counted();
 }
