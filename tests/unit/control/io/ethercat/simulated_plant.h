@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -52,6 +53,11 @@ class Plant {
     master_ = std::make_unique<Master>(bus_, std::move(plans), kTick);
   }
   explicit Plant(std::size_t count) : Plant(count, drive_plans(count)) {}
+  // With the slaves that `build` adds.
+  Plant(std::vector<SlavePlan> plans, const std::function<void(Segment&)>& build) : applied_(plans.size()) {
+    build(bus_.segment());
+    master_ = std::make_unique<Master>(bus_, std::move(plans), kTick);
+  }
 
   void tick() {
     now_ += kTick + Clock(master_->clocks().tick_correction());

@@ -4,8 +4,8 @@
 
 #include <array>
 #include <cstdlib>
-#include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "control/io/ethercat/master/master.h"
@@ -51,51 +51,42 @@ class CableTree {
   std::vector<Place> places_;
 };
 
-// Drives in a tree whose clocks show and do what they like.
-class TreePlant {
+std::vector<SlavePlan> plans_with_pulses(std::size_t count) {
+  auto plans = drive_plans(count);
+  for (SlavePlan& plan : plans) {
+    plan.sync = {0x0300, kTick, kPulseShift, {}};
+  }
+  return plans;
+}
+
+// Drives whose clocks show and do what they like.
+void add_drives(Segment& segment, unsigned seed, const std::vector<Place>& places) {
+  std::mt19937_64 random(seed);
+  for (const Place& place : places) {
+    SlaveConfig config = drive_config();
+    config.esc.clock_start = Time(static_cast<std::int64_t>(random() % 4'000'000'000'000U));
+    config.esc.drift_ppb = static_cast<std::int64_t>(random() % 40'000) - 20'000;
+    if (segment.size() == 0) {
+      segment.add(config, reflect);
+    } else {
+      EXPECT_TRUE(segment.can_add(place.outlet));
+      segment.add(config, reflect, place.outlet);
+    }
+  }
+}
+
+class TreePlant : public Plant {
  public:
-  explicit TreePlant(unsigned seed) : tree_(seed, 2 + seed % 7), random_(seed) {
-    auto plans = drive_plans(size());
-    for (std::size_t i = 0; i < size(); ++i) {
-      SlaveConfig config = drive_config();
-      config.esc.clock_start = Time(static_cast<std::int64_t>(random_() % 4'000'000'000'000U));
-      config.esc.drift_ppb = static_cast<std::int64_t>(random_() % 40'000) - 20'000;
-      Segment& segment = bus_.segment();
-      if (i == 0) {
-        segment.add(config, reflect);
-      } else {
-        EXPECT_TRUE(segment.can_add(tree_.places()[i].outlet));
-        segment.add(config, reflect, tree_.places()[i].outlet);
-      }
-      plans[i].sync = {0x0300, kTick, kPulseShift, {}};
-    }
-    master_ = std::make_unique<Master>(bus_, std::move(plans), kTick);
-  }
-  void tick() {
-    now_ += kTick + Clock(master_->clocks().tick_correction());
-    bus_.advance(now_);
-    master_->cycle(now_);
-    bus_.segment().compute();
-    Event event;
-    while (master_->next_event(event)) {
-      events_.push_back(event);
-    }
-  }
-  void run(unsigned ticks) {
-    for (unsigned i = 0; i < ticks; ++i) {
-      tick();
-    }
-  }
+  explicit TreePlant(unsigned seed) : TreePlant(seed, CableTree(seed, 2 + seed % 7).places()) {}
+
   void start() {
-    for (unsigned i = 0; i < 5000 && !all_operate(*master_); ++i) {
-      tick();
-    }
-    ASSERT_TRUE(all_operate(*master_)) << story();
+    run_until_all_operate(5000);
+    ASSERT_TRUE(all_operate()) << story();
   }
   // How far the pulses of this slave are from where they shall be when the frame of the last tick comes.
   [[nodiscard]] std::int64_t phase_error(std::size_t place) {
-    const std::int64_t cables = tree_.places()[place].cables;
-    const auto since = slave(place).esc().since_pulse(now_ + cables * kCableTime);
+    const std::int64_t cables = places_[place].cables;
+    const auto since = slave(place).esc().since_pulse(now() + cables * kCableTime);
     if (!since) {
       ADD_FAILURE() << "slave " << place << " has no pulses";
       return 0;
@@ -104,28 +95,15 @@ class TreePlant {
     const std::int64_t half = kTick.count() / 2;
     return (error + half + kTick.count()) % kTick.count() - half;
   }
-  [[nodiscard]] std::size_t size() const { return tree_.places().size(); }
-  [[nodiscard]] std::string story() const {
-    std::string text;
-    for (const Event& event : events_) {
-      text += describe(event, "drive") + "\n";
-    }
-    return text;
-  }
-  Slave& slave(std::size_t place) { return bus_.segment().slave(place); }
-  [[nodiscard]] const std::vector<Place>& places() const { return tree_.places(); }
-  std::vector<Event>& events() { return events_; }
-  SimulatedBus& bus() { return bus_; }
-  Master& master() { return *master_; }
-  [[nodiscard]] Clock now() const { return now_; }
+  [[nodiscard]] std::size_t size() const { return places_.size(); }
+  [[nodiscard]] const std::vector<Place>& places() const { return places_; }
 
  private:
-  CableTree tree_;
-  std::mt19937_64 random_;
-  SimulatedBus bus_{kCableTime};
-  std::unique_ptr<Master> master_;
-  Clock now_{0};
-  std::vector<Event> events_;
+  TreePlant(unsigned seed, std::vector<Place> places)
+      : Plant(plans_with_pulses(places.size()), [&](Segment& segment) { add_drives(segment, seed, places); }),
+        places_(std::move(places)) {}
+
+  std::vector<Place> places_;
 };
 
 TEST(Tree, A_frame_comes_to_each_port_when_it_has_passed_the_cables_before) {
@@ -210,7 +188,7 @@ TEST(Tree, A_branch_that_is_cut_takes_only_its_own_slaves_along) {
     }
     sut.bus().segment().set_cable(place, true);
     sut.run(2000);
-    EXPECT_TRUE(all_operate(sut.master())) << sut.story();
+    EXPECT_TRUE(sut.all_operate()) << sut.story();
     sut.run(1000);
     for (std::size_t i = 0; i < sut.size(); ++i) {
       EXPECT_LT(std::abs(sut.phase_error(i)), 1000) << "ns, slave " << i << "\n" << sut.story();
