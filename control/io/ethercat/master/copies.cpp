@@ -5,7 +5,7 @@
 
 namespace indurop::io::ethercat {
 
-Copies::Copies(std::vector<Copy> copies, Master& master) {
+Copies::Copies(const std::vector<Copy>& copies, Master& master) {
   for (const Copy& copy : copies) {
     std::vector<std::uint8_t> fail_safe((copy.bits + 7) / 8);
     copy_bits(master.outputs(copy.to), copy.to_bit, fail_safe, 0, copy.bits);

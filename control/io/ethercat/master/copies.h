@@ -28,7 +28,7 @@ class Copies {
   Copies() = default;
   // What the outputs of the targets have now are their fail-safe values: they have them before the first valid bits,
   // and when the last ones were held long enough.
-  Copies(std::vector<Copy> copies, Master& master);
+  Copies(const std::vector<Copy>& copies, Master& master);
 
   // Between receive() and send() of the master: what came with the last cycle leaves with the next one. Real-time safe.
   void run(Master& master, Clock now) noexcept;

@@ -46,7 +46,8 @@ std::optional<PortWatch::Finding> PortWatch::answer(Bytes data) noexcept {
   std::optional<Finding> worst;
   for (std::uint8_t port = 0; port < kPorts; ++port) {
     // A frame that is physically broken counts as invalid as well.
-    const Finding found{port, std::max(more(2U * port), more(2U * port + 1U)), more(2 * kPorts + port)};
+    const std::size_t at = std::size_t{2} * port;
+    const Finding found{port, std::max(more(at), more(at + 1)), more(2 * kPorts + port)};
     const auto size = [](const Finding& one) { return one.broken_frames + one.lost_links; };
     errors_ += static_cast<std::uint64_t>(size(found));
     if (size(found) > 0 && (!worst || size(found) > size(*worst))) {
