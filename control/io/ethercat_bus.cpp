@@ -311,7 +311,7 @@ std::string EthercatBus::prepare() {
   wire_ = std::move(*wire);
   owned_ = std::make_unique<Running>(wire_->link(), std::move(plans), period_, std::move(*places));
   make_fields(*found, *owned_);
-  owned_->copies = ethercat::Copies(std::move(*copies), owned_->master);
+  owned_->copies = ethercat::Copies(*copies, owned_->master);
   return {};
 }
 

@@ -87,6 +87,7 @@ Number read_field(const EthercatField& field, std::span<const std::uint8_t> from
     return field.bits == 32 ? static_cast<Number>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)))
                             : static_cast<Number>(std::bit_cast<double>(bits));
   }
+  // is_number() has seen that there are bits. NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult)
   const bool is_negative = field.kind == Kind::Signed && (bits >> (field.bits - 1) & 1U) != 0;
   return is_negative ? static_cast<Number>(static_cast<std::int64_t>(bits | ~all_ones(field.bits)))
                      : static_cast<Number>(bits);

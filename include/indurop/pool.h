@@ -120,6 +120,7 @@ class Pool {
     ~Registered() { indurop_unregister_pool(&use); }
     abi::PoolUse use{Tag::kNameHash, Tag::kTypeHash, sizeof(value_type), Tag::kName};
   };
+  // One for each program that uses the pool. NOLINTNEXTLINE(*-avoid-non-const-global-variables,*-identifier-naming)
   static inline Registered use_;
 };
 
