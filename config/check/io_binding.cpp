@@ -147,10 +147,8 @@ class Binder {
   // An output that a <copy> writes, too. What ranges and PDOs contain only their slave knows.
   void check_copies(const BoundDevice& bound) {
     for (const IoCopy& copy : bound.device.slave.copies) {
-      const IoObject& target = copy.target.first;
-      const auto point = std::find_if(bound.points.begin(), bound.points.end(), [&target](const BoundPoint& other) {
-        const IoObject& object = other.point.object;
-        return other.point.output && object.index == target.index && object.subindex == target.subindex;
+      const auto point = std::find_if(bound.points.begin(), bound.points.end(), [&copy](const BoundPoint& other) {
+        return other.point.output && is_same(other.point.object, copy.target.first);
       });
       if (point != bound.points.end()) {
         report_.error(copy.target.place, fmt::format("to: {} is written by the output in line {} already; remove one",

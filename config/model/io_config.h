@@ -56,6 +56,9 @@ struct IoObject {
   std::uint8_t bytes = 0;  // as a PDO gets it; 0: only the slave knows
   bool is_signed = false;
 };
+constexpr bool is_same(const IoObject& a, const IoObject& b) noexcept {
+  return a.index == b.index && a.subindex == b.subindex;
+}
 
 struct IoPoint {
   bool output = false;   // true: from variable to device

@@ -18,10 +18,6 @@ constexpr const char* kForms =
 
 constexpr base::Nanos kMaxHold{1'000'000'000};
 
-constexpr bool is_same(const IoObject& a, const IoObject& b) noexcept {
-  return a.index == b.index && a.subindex == b.subindex;
-}
-
 // Indices of what describes PDOs, so that they are of no object that a slave exchanges.
 struct PdoIndices {
   std::uint16_t first;

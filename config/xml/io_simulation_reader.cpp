@@ -43,13 +43,13 @@ void read_io_simulation(const base::Element& element, IoConfig& config, base::Di
 }
 
 void check_io_simulations(const IoConfig& config, base::Diagnostics& report) {
-  for (const IoSimulation& simulation : config.simulations) {
-    std::vector<std::string> addresses;
-    for (const IoDevice& device : config.devices) {
-      if (device.driver == IoDriver::Ethercat) {
-        addresses.push_back(device.address);
-      }
+  std::vector<std::string> addresses;
+  for (const IoDevice& device : config.devices) {
+    if (device.driver == IoDriver::Ethercat) {
+      addresses.push_back(device.address);
     }
+  }
+  for (const IoSimulation& simulation : config.simulations) {
     if (!simulation.address.empty() &&
         std::find(addresses.begin(), addresses.end(), simulation.address) == addresses.end()) {
       report.error(simulation.place,

@@ -21,6 +21,8 @@
 
 namespace indurop::io {
 
+inline constexpr std::size_t kThreadStackBytes = std::size_t{256} * 1024;  // of a thread that serves devices
+
 class Driver {
  public:
   Driver() = default;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "config/check/io_mapping.h"
+#include "control/io/driver.h"
 #include "control/io/ethercat_copies.h"
 #include "store/runtime/host.h"
 
@@ -18,7 +19,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t kBusStackBytes = std::size_t{256} * 1024;
 constexpr milliseconds kRetry{500};
 constexpr milliseconds kPoll{20};
 constexpr std::uint32_t kFirstAddress = 0x10000;  // of the process data on the bus
@@ -101,10 +101,11 @@ bool EthercatBus::start() {
     ready_.store(owned_.get(), std::memory_order_release);
     return true;
   }
-  auto thread = rt::Thread::start({"irp-ethercat", 0, -1, kBusStackBytes}, [this, module = runtime::current_module()] {
-    runtime::set_current_module(module);
-    work();
-  });
+  auto thread =
+      rt::Thread::start({"irp-ethercat", 0, -1, kThreadStackBytes}, [this, module = runtime::current_module()] {
+        runtime::set_current_module(module);
+        work();
+      });
   if (!thread) {
     return false;
   }

@@ -11,7 +11,6 @@
 namespace indurop::io {
 namespace {
 
-constexpr std::size_t kStackBytes = std::size_t{256} * 1024;
 constexpr std::chrono::seconds kToBegin{1};  // a device that starts together with the node may not be ready immediately
 
 }  // namespace
@@ -27,7 +26,7 @@ ExchangeThread::~ExchangeThread() {
 }
 
 Status ExchangeThread::start(std::uint32_t module) {
-  auto thread = rt::Thread::start({"irp-io", 0, -1, kStackBytes}, [this, module] {
+  auto thread = rt::Thread::start({"irp-io", 0, -1, kThreadStackBytes}, [this, module] {
     runtime::set_current_module(module);
     work();
   });

@@ -4,6 +4,7 @@ of this tree, `store/vars/store.h`, or `store/vars/store` for short, and tests, 
 check_readme.py ROOT [INDUROP]
 INDUROP: the built program, whose --help must know every verb shown."""
 
+import functools
 import pathlib
 import re
 import subprocess
@@ -43,9 +44,10 @@ def missing_files(root, name, text, files):
                 yield f"{name}: names the missing file {path}"
 
 
-def anchors(text):
+@functools.cache
+def anchors(page):
     """The headings of a page as links name them, in small letters, without punctuation, spaces as hyphens; and its ids."""
-    shown = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", FENCE.sub("", text))
+    shown = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", FENCE.sub("", text := page.read_text(encoding="utf-8")))
     return {re.sub(r"[^\w -]", "", heading.lower()).strip().replace(" ", "-")
             for heading in re.findall(r"^#+ (.*)", shown, re.MULTILINE)} | set(re.findall(r'<a id="([^"]+)"', text))
 
@@ -57,7 +59,7 @@ def broken_links(root, name, text):
         page = (root / name).parent / target if target else root / name
         if not page.exists():
             yield f"{name}: link to missing file {target}"
-        elif anchor and page.suffix == ".md" and anchor not in anchors(page.read_text(encoding="utf-8")):
+        elif anchor and page.suffix == ".md" and anchor not in anchors(page):
             yield f"{name}: {target or 'this page'} has no heading #{anchor}"
 
 

@@ -201,7 +201,7 @@ std::size_t bits_of(const Pdo& pdo) noexcept {
 
 const PdoEntry* find_entry(const Pdo& pdo, std::uint16_t index, std::uint8_t subindex) noexcept {
   const auto found = std::find_if(pdo.entries.begin(), pdo.entries.end(), [index, subindex](const PdoEntry& entry) {
-    return entry.index == index && entry.subindex == subindex;
+    return is_object(entry, index, subindex);
   });
   return found == pdo.entries.end() ? nullptr : &*found;
 }

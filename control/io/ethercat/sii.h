@@ -64,6 +64,9 @@ struct PdoEntry {
   std::uint8_t type = 0;  // as CoE numbers its data types
   std::string name;
 };
+constexpr bool is_object(const PdoEntry& entry, std::uint16_t index, std::uint8_t subindex) noexcept {
+  return entry.index == index && entry.subindex == subindex;
+}
 
 inline constexpr std::uint8_t kNotAssigned = 0xFF;
 // Bits of Pdo::flags.

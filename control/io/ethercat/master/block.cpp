@@ -7,10 +7,6 @@ namespace indurop::io::ethercat {
 
 namespace {
 
-bool is_object(const PdoEntry& entry, std::uint16_t index, std::uint8_t subindex) noexcept {
-  return entry.index == index && entry.subindex == subindex;
-}
-
 // Returns where the block is in a PDO whose first bit is this one.
 std::optional<BlockPlace> place_in(const Pdo& pdo, const Block& block, std::size_t bit) noexcept {
   if (pdo.index == block.index) {

@@ -16,8 +16,8 @@
 namespace indurop::io::ethercat {
 
 using Time = std::chrono::nanoseconds;  // virtual, since the simulation began
-// When a frame came in at each port; nothing where no slave is linked.
-using Arrivals = std::array<std::optional<Time>, kPorts>;
+// When a frame comes back through each port but 0, where it came in first; nothing where no slave is linked.
+using Returns = std::array<std::optional<Time>, kPorts>;
 
 struct EscConfig {
   std::uint8_t type = 0x11;
@@ -59,7 +59,7 @@ class Esc {
   bool read_logical(std::uint32_t address, std::span<std::uint8_t> to, Time now);
   bool write_logical(std::uint32_t address, Bytes from);
   // A frame with a write to the receive times passed.
-  void latch_receive_times(const Arrivals& arrivals) noexcept;
+  void latch_receive_times(Time in, const Returns& returns) noexcept;
 
   // Access by the application of the device.
   [[nodiscard]] std::uint8_t at(std::size_t offset) const noexcept { return memory_[offset]; }

@@ -29,17 +29,18 @@ Time Esc::system_time(Time now) const noexcept {
   return (config_.features & kHasLongClock) != 0 ? whole : Time(static_cast<std::uint32_t>(whole.count()));
 }
 
-void Esc::latch_receive_times(const Arrivals& arrivals) noexcept {
+void Esc::latch_receive_times(Time in, const Returns& returns) noexcept {
   if ((config_.features & kHasClock) == 0) {
     return;
   }
-  for (std::size_t port = 0; port < kPorts; ++port) {
-    if (arrivals[port]) {
+  const std::int64_t received = local_time(in).count();
+  set<std::uint32_t>(reg::kReceiveTimes, static_cast<std::uint32_t>(received));
+  for (std::size_t port = 1; port < kPorts; ++port) {
+    if (returns[port]) {
       set<std::uint32_t>(reg::kReceiveTimes + port * sizeof(std::uint32_t),
-                         static_cast<std::uint32_t>(local_time(*arrivals[port]).count()));
+                         static_cast<std::uint32_t>(local_time(*returns[port]).count()));
     }
   }
-  const std::int64_t received = local_time(arrivals[0].value_or(Time{0})).count();
   const bool is_long = (config_.features & kHasLongClock) != 0;
   set<std::int64_t>(reg::kReceiveTimeUnit, is_long ? received : static_cast<std::uint32_t>(received));
 }

@@ -81,7 +81,7 @@ void Segment::link() noexcept {
     node.reached = 1;
     std::array<bool, kPorts> open{is_linked(i)};
     for (std::size_t port = 1; port < kPorts; ++port) {
-      if (node.behind[port] != kNone && is_linked(node.behind[port])) {
+      if (leads_on(node, port)) {
         open[port] = true;
         node.reached += nodes_[node.behind[port]].reached;
       }
@@ -95,19 +95,19 @@ void Segment::link() noexcept {
 
 void Segment::pass_branch(std::span<std::uint8_t> frame, Time now, std::size_t slave) {
   const Node& node = nodes_[slave];
-  Arrivals arrivals{now};
+  Returns returns;
   std::array<Time, kPorts> left{};
   Time at = now;
   for (const std::size_t port : kOrder) {
     left[port] = at;
-    if (node.behind[port] != kNone && is_linked(node.behind[port])) {
+    if (leads_on(node, port)) {
       at += 2 * static_cast<std::int64_t>(nodes_[node.behind[port]].reached) * delay_;
-      arrivals[port] = at;
+      returns[port] = at;
     }
   }
-  slaves_[slave].process(frame, arrivals);
+  slaves_[slave].process(frame, now, returns);
   for (const std::size_t port : kOrder) {
-    if (arrivals[port]) {
+    if (returns[port]) {
       pass_branch(frame, left[port] + delay_, node.behind[port]);
     }
   }
@@ -117,7 +117,7 @@ void Segment::pass_branch(std::span<std::uint8_t> frame, Time now, std::size_t s
 Time Segment::pass_line(std::span<std::uint8_t> frame, Time now, std::size_t begin) {
   for (std::size_t i = begin; i < slaves_.size(); ++i) {
     now += delay_;
-    slaves_[i].process(frame, {now, now});
+    slaves_[i].process(frame, now, {std::nullopt, now});
   }
   return now + delay_;
 }

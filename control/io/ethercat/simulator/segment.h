@@ -66,6 +66,10 @@ class Segment {
 
   Slave& add_at(SlaveConfig config, Slave::Application application, std::size_t parent, std::size_t port);
   void link() noexcept;
+  // Whether a frame leaves through this port to a slave.
+  [[nodiscard]] bool leads_on(const Node& node, std::size_t port) const noexcept {
+    return node.behind[port] != kNone && is_linked(node.behind[port]);
+  }
   // Whether there is a way through the cable before this slave.
   [[nodiscard]] bool is_linked(std::size_t before) const noexcept;
   // Through all slaves at and behind this one, and back to its port 0.

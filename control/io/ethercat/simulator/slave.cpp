@@ -68,13 +68,12 @@ void Slave::set_ports(const std::array<bool, kPorts>& open) noexcept {
 
 // --- frames ---
 
-void Slave::process(std::span<std::uint8_t> frame, const Arrivals& arrivals) {
-  const Time now = arrivals[0].value_or(Time{0});
+void Slave::process(std::span<std::uint8_t> frame, Time now, const Returns& returns) {
   advance_device(now);
   FrameReader reader(frame);
   Datagram datagram;
   while (reader.next(datagram)) {
-    run_datagram(datagram, frame, arrivals);
+    run_datagram(datagram, frame, now, returns);
     react(now);
   }
   // A slave without outputs measures for each frame.
@@ -87,7 +86,7 @@ bool Slave::is_station(std::uint16_t address) const noexcept {
          (alias && address == esc_.value<std::uint16_t>(reg::kAlias));
 }
 
-void Slave::run_datagram(const Datagram& datagram, std::span<std::uint8_t> frame, const Arrivals& arrivals) {
+void Slave::run_datagram(const Datagram& datagram, std::span<std::uint8_t> frame, Time now, const Returns& returns) {
   const auto address = static_cast<std::uint16_t>(datagram.address);
   const auto offset = static_cast<std::uint16_t>(datagram.address >> 16U);
   bool by_position = false;
@@ -100,7 +99,7 @@ void Slave::run_datagram(const Datagram& datagram, std::span<std::uint8_t> frame
     case Command::Lrd:
     case Command::Lwr:
     case Command::Lrw:
-      access_logical(datagram, frame, arrivals[0].value_or(Time{0}));
+      access_logical(datagram, frame, now);
       return;
     case Command::Aprd:
     case Command::Apwr:
@@ -135,9 +134,9 @@ void Slave::run_datagram(const Datagram& datagram, std::span<std::uint8_t> frame
   }
   if (is_mine) {
     if (writes && offset == reg::kReceiveTimes) {
-      esc_.latch_receive_times(arrivals);
+      esc_.latch_receive_times(now, returns);
     }
-    access(datagram, frame, reads, writes, arrivals[0].value_or(Time{0}));
+    access(datagram, frame, reads, writes, now);
   }
 }
 

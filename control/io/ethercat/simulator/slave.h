@@ -35,8 +35,8 @@ class Slave {
 
   explicit Slave(SlaveConfig config, Application application = {});
 
-  // A frame passes, and comes in at each linked port at this time; first at port 0.
-  void process(std::span<std::uint8_t> frame, const Arrivals& arrivals);
+  // A frame passes: `now` when it comes in at port 0.
+  void process(std::span<std::uint8_t> frame, Time now, const Returns& returns);
   // Runs the application if a frame brought outputs or another state. The frame has left by then, as with a real
   // slave: what the application computes goes into later frames.
   void compute();
@@ -71,7 +71,7 @@ class Slave {
     std::uint16_t length = 0;
   };
 
-  void run_datagram(const Datagram& datagram, std::span<std::uint8_t> frame, const Arrivals& arrivals);
+  void run_datagram(const Datagram& datagram, std::span<std::uint8_t> frame, Time now, const Returns& returns);
   [[nodiscard]] bool is_station(std::uint16_t address) const noexcept;
   void access(const Datagram& datagram, std::span<std::uint8_t> frame, bool reads, bool writes, Time now);
   void access_logical(const Datagram& datagram, std::span<std::uint8_t> frame, Time now);

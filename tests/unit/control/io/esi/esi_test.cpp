@@ -194,12 +194,8 @@ class EsiSlave : public testing::Test {
   Slave& add(const std::string& word) {
     auto model = slaves::read_slave_word(word);
     EXPECT_TRUE(model) << model.error();
-    Slave& slave = bus_.segment().add(std::move(model->config),
-                                      [this, compute = model->compute](Bytes outputs, std::span<std::uint8_t> inputs) {
-                                        compute(outputs, inputs, now_);
-                                      });
-    model->attach(slave);
-    return slave;
+    EXPECT_EQ(slaves::add_slave(bus_.segment(), std::move(*model), [this] { return now_; }), "");
+    return bus_.segment().slave(bus_.segment().size() - 1);
   }
   void run(Master& master, int ticks) {
     for (int i = 0; i < ticks; ++i) {
