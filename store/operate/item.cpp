@@ -216,4 +216,17 @@ bool touches(const vars::Force& force, const Item& item) noexcept {
          begin < force.offset + force.size;
 }
 
+bool overlay(const vars::Force& force, const Item& item, std::span<std::uint8_t> bytes) noexcept {
+  if (!touches(force, item)) {
+    return false;
+  }
+  const std::size_t item_begin = item.place.offset;
+  const std::size_t begin = std::max<std::size_t>(force.offset, item_begin);
+  const std::size_t end = std::min<std::size_t>(force.offset + force.size, item_begin + bytes.size());
+  for (std::size_t i = begin; i < end; ++i) {
+    bytes[i - item_begin] = force.bytes()[i - force.offset];
+  }
+  return true;
+}
+
 }  // namespace indurop::operate

@@ -27,7 +27,12 @@ base::Json variable_json(const vars::Store& store, const tools::Item& item, cons
   out["form"] = form_of(item.place.type);
   Quality quality = quality_of(store, item);
   if (values) {
-    const auto bytes = operate::read(store, item);
+    auto bytes = operate::read(store, item);
+    for (const vars::Force& force : forces) {
+      if (bytes) {
+        operate::overlay(force, item, *bytes);
+      }
+    }
     quality = bytes ? quality : Quality::Unread;
     out["value"] = bytes ? tools::raw_value(item.place.type, *bytes) : base::Json();
     out["text"] = bytes ? schema::format_value(item.place.type, *bytes) : std::string();

@@ -10,6 +10,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/schema/schema.h"
@@ -123,6 +124,22 @@ class Operate : public ::testing::Test {
   std::optional<vars::Store> made_;
   std::optional<vars::Store> store_;
 };
+
+TEST_F(Operate, A_force_that_is_in_the_table_but_not_yet_in_the_variable_is_reported_as_both) {
+  ASSERT_TRUE(force({"cell::axis.y=2.5"}).ok());
+  const auto forces = store_->forces();
+  ASSERT_EQ(forces.size(), 1U);
+  const auto overlaid = [&](const std::string& name) {
+    const auto item = find(*store_, name);
+    std::vector<std::uint8_t> bytes(item->place.type.size());  // as before the force: zeros
+    const bool touched = overlay(forces[0], *item, bytes);
+    return std::pair(touched, schema::format_value(item->place.type, bytes));
+  };
+  EXPECT_EQ(overlaid("cell::axis"), std::pair(true, std::string("{x: 0, y: 2.5}")));
+  EXPECT_EQ(overlaid("cell::axis.y"), std::pair(true, std::string("2.5")));
+  EXPECT_EQ(overlaid("cell::axis.x"), std::pair(false, std::string("0")));
+  EXPECT_EQ(overlaid("cell::gain"), std::pair(false, std::string("0")));
+}
 
 TEST_F(Operate, Notes_full_names_values_and_ends) {
   ASSERT_TRUE(set_lines({"gain=2.5"}).ok());
