@@ -44,6 +44,15 @@ def results(log):
     return found
 
 
+def first_failure(log, name):
+    """Last lines of what the test printed at its first try, which failed."""
+    for found in RESULT.finditer(log):
+        if found.group(1) == name and found.group(2) != "Passed":
+            printed = re.split(r"^ *(?:Start +\d+:|(?:\d+/\d+ )?Test +#\d+:)", log[found.end():], maxsplit=1, flags=re.MULTILINE)[0]
+            return printed.strip().splitlines()[-LAST_LINES:]
+    return []
+
+
 def retried(log):
     return sorted(name for name, all_of_it in results(log).items() if len(all_of_it) > 1 and all_of_it[-1] == "Passed")
 
@@ -73,7 +82,7 @@ def main():
     for name, reason in skipped(junit):
         print(f"skipped: {name}: {reason}")
     for name in retried(log):
-        print(f"passed at the second try only: {name}")
+        print(f"passed at the second try only: {name}:", *first_failure(log, name), sep="\n  | ")
     for name in not_run(log):
         print(f"could not be started: {name}")
     for name, lines in failed(junit):

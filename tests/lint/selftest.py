@@ -497,7 +497,7 @@ class Commits(Sample):
 
 
 class Run(Sample):
-    LOG = ("1/2 Test #1: Flaky ......***Failed    0.05 sec\n    Test #1: Flaky ......   Passed    0.02 sec\n"
+    LOG = ("1/2 Test #1: Flaky ......***Failed    0.05 sec\nwhy\n    Test #1: Flaky ......   Passed    0.02 sec\n"
            "2/2 Test #2: Good ......   Passed    0.01 sec\n")
 
     def junit(self, *names):
@@ -526,7 +526,7 @@ class Run(Sample):
         self.assertEqual(check_run.allowed(self.root / "may.txt"), ["A.b"])
 
     def test_retried(self):
-        self.assertEqual(check_run.retried(self.LOG), ["Flaky"])
+        self.assertEqual([(name, check_run.first_failure(self.LOG, name)) for name in check_run.retried(self.LOG)], [("Flaky", ["why"])])
         self.assertEqual(check_run.check(self.junit(), self.LOG, []), [])
         many = "".join(self.LOG.replace("Flaky", f"F{i}") for i in range(3))
         self.found(check_run.check(self.junit(), many, []), "F0", "F2")
