@@ -31,10 +31,10 @@ endfunction()
 # Runs glb2idl; targets that link <target> can include <indurop/generated.h> with the variables of all the files.
 # TYPES also builds lib<target>_types.so with the DDS types of the variables (target <target>_types).
 function(indurop_add_glb target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "TYPES" "" "FILES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "TYPES;C" "" "FILES")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "indurop_add_glb(${target}): unexpected '${arg_UNPARSED_ARGUMENTS}'; "
-      "usage: indurop_add_glb(<target> FILES a.glb [b.glb ...] [TYPES])")
+      "usage: indurop_add_glb(<target> FILES a.glb [b.glb ...] [TYPES] [C])")
   endif()
   if(NOT arg_FILES)
     message(FATAL_ERROR "indurop_add_glb(${target}): name at least one .glb file after FILES")
@@ -49,6 +49,10 @@ function(indurop_add_glb target)
     endif()
     list(APPEND sources ${file})
   endforeach()
+  set(c "")
+  if(arg_C)
+    set(c --c)
+  endif()
   set(idls "")
   if(arg_TYPES)
     indurop_glb_closure(all ${sources})
@@ -57,7 +61,7 @@ function(indurop_add_glb target)
   list(JOIN arg_FILES " " shown)
   # glb2idl leaves files alone that would not change; the touch tells the build tool that they are up to date.
   add_custom_command(OUTPUT ${header} ${idls}
-    COMMAND indurop::glb2idl --out-dir ${folder} --depfile ${folder}/generated.d ${sources}
+    COMMAND indurop::glb2idl ${c} --out-dir ${folder} --depfile ${folder}/generated.d ${sources}
     COMMAND ${CMAKE_COMMAND} -E touch ${header} ${idls}
     DEPENDS indurop::glb2idl ${sources}
     DEPFILE ${folder}/generated.d
@@ -174,7 +178,7 @@ function(indurop_add_plc name)
   list(JOIN arg_SOURCES " " shown)
   add_custom_command(OUTPUT ${texts} ${folder}/${name}.glb ${header}
     COMMAND indurop::indurop_cli plc build ${options} ${sources}
-    COMMAND indurop::glb2idl --out-dir ${folder} ${glb_files} ${folder}/${name}.glb
+    COMMAND indurop::glb2idl ${c} --out-dir ${folder} ${glb_files} ${folder}/${name}.glb
     COMMAND ${CMAKE_COMMAND} -E touch ${header}
     DEPENDS indurop::indurop_cli indurop::glb2idl ${sources} ${glb_files}
     COMMENT "indurop plc build ${shown}" VERBATIM)

@@ -93,8 +93,10 @@ class Checker {
     symbol.at = name.at;
     symbol.value = *value;
     symbol.is_define = is_define;
-    if (context_.scope.declare(context_.full(name.text), std::move(symbol))) {
-      context_.add(Constant{context_.full(name.text), std::move(*value), base, description});
+    const std::string full_name = context_.full(name.text);
+    if (context_.scope.declare(full_name, std::move(symbol)) &&
+        context_.scope.claim_cpp("#define ", full_name, name.at)) {  // a macro in the header for C
+      context_.add(Constant{full_name, std::move(*value), base, description});
     }
   }
 

@@ -42,6 +42,9 @@ struct RosPackages {
 };
 [[nodiscard]] RosPackages emit_ros2(const Program& program);
 
+// Returns the variables for modules in C: <stem>.glb.c.h of each unit, with indurop/generated.c.h last.
+[[nodiscard]] std::vector<Output> emit_c(const Program& program);
+
 // Returns a Python module with the types of all variables, for type checkers.
 [[nodiscard]] std::string emit_python(const Program& program);
 

@@ -27,8 +27,8 @@ class TypesWriter {
                 to_text(value.integer), HeaderText::comment(constant.description));
     } else {
       schema::Type type;
-      type.base = constant.base.value_or(natural_base(value));
-      out_.line("inline constexpr {} {}{{{}}};{}", cpp_type(type), name, constant_text(type.base, value),
+      type.base = base_of(constant);
+      out_.line("inline constexpr {} {}{{{}}};{}", cpp_type(type), name, literal_of(constant),
                 HeaderText::comment(constant.description));
     }
   }
@@ -93,34 +93,6 @@ class TypesWriter {
     }
   }
 
-  static Base natural_base(const Value& value) {
-    if (value.kind == Value::Kind::Bool) {
-      return Base::Bool;
-    }
-    if (value.kind == Value::Kind::Real) {
-      return Base::Double;
-    }
-    return value.integer > INT64_MAX                                   ? Base::UInt64
-           : value.integer == static_cast<std::int32_t>(value.integer) ? Base::Int32
-                                                                       : Base::Int64;
-  }
-
-  static std::string constant_text(Base base, const Value& value) {
-    schema::Type type;
-    type.base = base;
-    std::array<std::uint8_t, 8> bytes{};
-    const auto single = static_cast<float>(value.real);
-    if (base == Base::Float) {
-      std::memcpy(bytes.data(), &single, sizeof single);
-    } else if (base == Base::Double) {
-      std::memcpy(bytes.data(), &value.real, sizeof value.real);
-    } else {
-      const auto bits = static_cast<std::uint64_t>(value.integer);
-      std::memcpy(bytes.data(), &bits, sizeof bits);
-    }
-    return initializer_text(type, bytes.data());
-  }
-
   HeaderText& out_;
 };
 
@@ -131,6 +103,39 @@ void emit_types(const GlbFile& unit, HeaderText& out) {
   for (const Item& item : unit.items) {
     std::visit(writer, item);
   }
+}
+
+Base base_of(const Constant& constant) {
+  const Value& value = constant.value;
+  if (constant.base) {
+    return *constant.base;
+  }
+  if (value.kind == Value::Kind::Bool) {
+    return Base::Bool;
+  }
+  if (value.kind == Value::Kind::Real) {
+    return Base::Double;
+  }
+  return value.integer > INT64_MAX                                   ? Base::UInt64
+         : value.integer == static_cast<std::int32_t>(value.integer) ? Base::Int32
+                                                                     : Base::Int64;
+}
+
+std::string literal_of(const Constant& constant) {
+  const Value& value = constant.value;
+  schema::Type type;
+  type.base = base_of(constant);
+  std::array<std::uint8_t, 8> bytes{};
+  const auto single = static_cast<float>(value.real);
+  if (type.base == Base::Float) {
+    std::memcpy(bytes.data(), &single, sizeof single);
+  } else if (type.base == Base::Double) {
+    std::memcpy(bytes.data(), &value.real, sizeof value.real);
+  } else {
+    const auto bits = static_cast<std::uint64_t>(value.integer);
+    std::memcpy(bytes.data(), &bits, sizeof bits);
+  }
+  return initializer_text(type, bytes.data());
 }
 
 std::string about(const std::string& description, const std::string& unit) {

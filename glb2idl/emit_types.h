@@ -14,4 +14,8 @@ void emit_types(const GlbFile& unit, HeaderText& out);
 // Returns "  // description [unit]".
 [[nodiscard]] std::string about(const std::string& description, const std::string& unit);
 
+// Returns the type of a constant that is no text and no enum value, and its value as a literal.
+[[nodiscard]] schema::Base base_of(const Constant& constant);
+[[nodiscard]] std::string literal_of(const Constant& constant);
+
 }  // namespace indurop::glb2idl

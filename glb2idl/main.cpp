@@ -23,6 +23,7 @@ struct Request {
   std::string depfile;
   std::string ros2;
   std::string python;
+  bool c = false;
   bool check = false;
   std::vector<std::string> files;
 };
@@ -39,6 +40,7 @@ std::optional<int> parse(int argc, char** argv, Request& request) {
   line.add("-o,--out-dir", "DIR", request.folder, "Where to write (default: .)").check(not_empty);
   line.add("--depfile", "FILE", request.depfile, "Also write a Makefile rule with all files that were read")
       .check(not_empty);
+  line.flag("--c", request.c, "Also write headers for modules in C: DIR/<name>.glb.c.h, DIR/indurop/generated.c.h");
   line.add("--ros2", "DIR", request.ros2, "Also write ROS 2 message packages to DIR").check(not_empty);
   line.add("--python", "FILE", request.python, "Also write a Python module with the types of all variables to FILE")
       .check(not_empty);
@@ -83,6 +85,9 @@ int run(const Request& request) {
   }
   if (error.empty()) {
     error = write_all(request.folder, outputs);
+  }
+  if (error.empty() && request.c) {
+    error = write_all(request.folder, emit_c(compilation.program));
   }
   if (error.empty() && !request.python.empty()) {
     error = write_file(request.python, emit_python(compilation.program));

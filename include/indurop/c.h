@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The C interface, for programs outside of the schedule: shared variables of a node of this machine, by name. It needs
- * no C++ and nothing else of this folder; link it with -lindurop-c. Modules use <indurop/indurop.h> instead.
+ * no C++ and nothing else of this folder; link it with -lindurop-c. Modules use <indurop/indurop.h> or, in C,
+ * <indurop/module_c.h> instead.
  *
  * Every function that can fail returns an irp_code; irp_error() then returns the reason in words. A null pointer where
  * one is required is IRP_INVALID, never a crash. A handle is for one thread at a time; different handles are

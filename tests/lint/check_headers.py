@@ -18,6 +18,12 @@ import common
 
 STRICT = ["-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Wsign-conversion",
           "-Wold-style-cast", "-Werror", "-x", "c++", "-"]
+C_ONLY = "include/indurop/module_c.h"
+STRICT_C = ["-std=c11", *(word for word in STRICT[1:-3] if word != "-Wold-style-cast"), "-x", "c", "-"]
+
+
+def strict_of(name):
+    return STRICT_C if name == C_ONLY else STRICT
 
 
 INCLUDE = re.compile(rb'^\s*#\s*include\s*[<"]([^>"]+)', re.MULTILINE)
@@ -65,7 +71,7 @@ def unnamed(root, names):
 
 def fingerprint(root, name, compiler, flags):
     """Hash of the header, of all headers of ours it includes, directly or not, and of the command."""
-    digest = hashlib.sha256(" ".join([compiler, *flags, *STRICT]).encode())
+    digest = hashlib.sha256(" ".join([compiler, *flags, *strict_of(name)]).encode())
     seen, ahead = set(), [root / name]
     while ahead:
         path = ahead.pop()
@@ -86,7 +92,7 @@ def compile_alone(root, name, compiler, flags, cache=None):
     target = name.removeprefix("include/") if name.startswith("include/") else name
     # Twice: a header must also survive being included again.
     text = f'#include "{target}"\n#include "{target}"\n'
-    run = subprocess.run([compiler, *flags, *STRICT], input=text, cwd=root, capture_output=True, text=True, check=False)
+    run = subprocess.run([compiler, *flags, *strict_of(name)], input=text, cwd=root, capture_output=True, text=True, check=False)
     if run.returncode == 0:
         if passed:
             passed.touch()

@@ -1,6 +1,6 @@
 #!/bin/sh
 # compile_case.sh GLB2IDL CASE INCLUDE WORK: the outputs for one golden case are accepted, without a warning, by idlc,
-# by the C compiler for what idlc makes, and by g++ and clang++ for the header.
+# by the C compiler for what idlc makes, by g++ and clang++ for the header, and by gcc and clang for that of C.
 set -eu
 glb2idl=$1
 input=$2/in.glb
@@ -8,7 +8,7 @@ include=$3
 work=$4
 rm -rf "$work"
 mkdir -p "$work"
-"$glb2idl" -o "$work" "$input"
+"$glb2idl" --c -o "$work" "$input"
 cd "$work"
 
 fail() {
@@ -43,4 +43,12 @@ quiet g++ -std=c++20 $warnings -fPIC -I. -I"$include" -c alone.cpp
 if command -v clang++-14 >/dev/null; then
   # shellcheck disable=SC2086
   quiet clang++-14 -std=gnu++20 $warnings -fPIC -I. -I"$include" -c behind.cpp
+fi
+warnings="-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Werror"
+echo '#include <indurop/generated.c.h>' >module.c
+# shellcheck disable=SC2086
+quiet gcc -std=c11 $warnings -fPIC -I. -I"$include" -c module.c
+if command -v clang-14 >/dev/null; then
+  # shellcheck disable=SC2086
+  quiet clang-14 -std=c11 $warnings -fPIC -I. -I"$include" -c module.c
 fi

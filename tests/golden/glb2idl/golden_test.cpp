@@ -17,13 +17,13 @@ namespace fs = std::filesystem;
 using golden::expect_file;
 using golden::slurp;
 
-// All packages in one file.
-void expect_ros2(const fs::path& folder, const RosPackages& sut) {
-  std::string all = base::to_text(sut.problems);
-  for (const Output& output : sut.outputs) {
+// All of several outputs in one text.
+std::string joined(const std::vector<Output>& outputs) {
+  std::string all;
+  for (const Output& output : outputs) {
     all += "---- " + output.path + "\n" + output.text;
   }
-  expect_file(folder / "expected.ros2", all);
+  return all;
 }
 
 class Golden : public ::testing::TestWithParam<std::string> {};
@@ -45,7 +45,11 @@ TEST_P(Golden, Output_is_as_expected) {
   std::string layout;
   if (sut.ok) {
     if (GetParam().starts_with("ros2")) {
-      expect_ros2(folder, emit_ros2(sut.program));
+      const RosPackages packages = emit_ros2(sut.program);
+      expect_file(folder / "expected.ros2", base::to_text(packages.problems) + joined(packages.outputs));
+    }
+    if (GetParam().starts_with("c_")) {
+      expect_file(folder / "expected.c.h", joined(emit_c(sut.program)));
     }
     if (GetParam().starts_with("python")) {
       expect_file(folder / "expected.py", emit_python(sut.program));

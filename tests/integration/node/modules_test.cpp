@@ -101,6 +101,34 @@ TEST_F(Modules, Of_a_process_share_variables_with_those_of_threads) {
   EXPECT_EQ(sut.wait(), 0);
 }
 
+TEST_F(Modules, In_c_run_as_threads_and_processes) {
+  Program& sut = start_and_wait({{.file = "c_thread.so", .name = "thread", .priority = 1},
+                                 {.file = "c_process.exe",
+                                  .name = "process",
+                                  .type = "process",
+                                  .period = "2ms",
+                                  .priority = 2,
+                                  .properties = {{"name", "left"}}}});
+  EXPECT_TRUE(wait_until([&] { return value<std::uint64_t>("nt::newest") > 200; }));
+  EXPECT_GE(value<std::int32_t>("nt::output"), 100);
+  EXPECT_GE(value<std::uint32_t>("nt::process_runs"), 50U);
+  EXPECT_TRUE(sut.prints("c_thread: 1.0 ms\n"));
+  EXPECT_TRUE(sut.prints("c_process: left\n"));
+  EXPECT_CONTAINS(indurop({"set", "nt::output", "5"}).err, "nt::output is written by thread too");
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  EXPECT_CONTAINS(sut.out(), "c_thread: " + std::to_string(module("thread").runs.load()) + " runs\n");
+}
+
+TEST_F(Modules, In_c_that_use_a_wrong_index_have_a_fault_that_names_the_variable) {
+  start_and_wait({{.file = "counter.so", .name = "counter", .priority = 1},
+                  {.file = "c_thread.so", .name = "thread", .priority = 2, .properties = {{"bad_run", "40"}}}});
+  EXPECT_TRUE(wait_until([&] { return module("thread").faults.load() == 1; }));
+  EXPECT_CONTAINS(std::string(module("thread").last_fault), "nt::block");
+  const std::uint64_t before = module("counter").runs.load();
+  EXPECT_TRUE(runs_reach("counter", before + 10));
+}
+
 TEST_F(Modules, Variables_are_seen_and_set_by_the_command_line) {
   Program& sut = start_and_wait({{.file = "counter.so", .name = "counter"}});
   ASSERT_TRUE(runs_reach("counter", 5));
