@@ -124,7 +124,7 @@ class Peers(run.Bench):
 
 
 def markdown(found):
-    lines = ["# Peers side by side", "", "Written by `make bench-peers`; what it means and what is not fair: "
+    lines = ["# Peers side by side", "", "Written by `make bench-peers`; how to read these figures: "
              "[benchmarks](../benchmarks.md#peers-side-by-side).", "",
              f"Medians of {found['rounds']} rounds of {found['seconds']} s; load of the machine at the beginning: {found['load']:.1f}.",
              "", "| one message written and read, ns | " + " | ".join(f"{size} B" for size in SIZES) +
