@@ -107,7 +107,7 @@ void declare_run_options(base::Options& line, RunOptions& options) {
       .check(check_node);
   line.add("--duration,--until", "TIME", take_duration, "End after this time (5s, 500ms)");
   line.add("--report", "FILE", options.report, "Write statistics to this JSON file at the end");
-  line.flag("--require-rt", options.require_rt, "Exit with code 7 unless real-time rights were obtained");
+  line.flag("--require-rt", options.require_rt, "Exit with code 7 unless real-time privileges were obtained");
   line.flag("--adjust", options.adjust, "Use the nearest valid periods instead of rejecting too short ones");
   line.add("--core", "N", options.core, "Core for all modules without <core>");
   line.add("--spin", "auto|off|TIME", spin, "Time to spin before each tick");

@@ -157,8 +157,8 @@ void Schedule::build_sporadic(std::vector<Planned>& planned) {
   }
 }
 
-// Needed only where FIFO priorities of one core do not already give the order: several cores, no real-time rights, or a
-// band that waits for another core and so lets later ones pass.
+// Needed only where FIFO priorities of one core do not already give the order: several cores, no real-time privileges,
+// or a band that waits for another core and so lets later ones pass.
 void Schedule::connect_predecessors(const std::vector<Planned>& planned) {
   if (!gated_) {
     return;

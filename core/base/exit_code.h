@@ -35,7 +35,7 @@ inline constexpr std::array kExitCodes{
     ExitCode{kCheckFailed, "check-failed", "check found errors"},
     ExitCode{kRolledBack, "rolled-back", "deployed and rolled back"},
     ExitCode{kUnreachable, "unreachable", "node or board not there, or time-out"},
-    ExitCode{kNoRealTime, "no-real-time", "real-time rights not obtained with --require-rt"},
+    ExitCode{kNoRealTime, "no-real-time", "real-time privileges not obtained with --require-rt"},
     ExitCode{kSchemaMismatch, "schema-mismatch", "layouts differ: another version, or a variable of another type"},
     ExitCode{kInterrupted, "interrupted", "interrupted (Ctrl-C)"},
     ExitCode{kTerminated, "terminated", "ended by SIGTERM; a node or agent ends with 0"},

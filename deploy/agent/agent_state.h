@@ -27,7 +27,7 @@ class AgentState {
  public:
   // Locks the board's folder for this process. `log` gets a line for people about each damaged file. A damaged
   // committed.json is set aside: the board begins without a deployment and takes over that of the other boards. A
-  // problem: no rights, or another agent holds the folder.
+  // problem: no access, or another agent holds the folder.
   using Log = std::function<void(const std::string& line)>;
   static Result<AgentState, base::Problem> open(const std::string& board, Log log = {});
   // As open(), for the releases of the platform, which are kept as deployments are: the running and the former one.

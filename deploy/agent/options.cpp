@@ -54,7 +54,7 @@ Result<AgentOptions, int> parse_options(int argc, char** argv) {
   line.add("--board", "NAME", options.board, "Name of the board").required().check(check_board);
   add_agent_options(line, options.link);
   line.add("--core", "N", options.core, "Core for all modules without <core>");
-  line.flag("--require-rt", options.require_rt, "End the node unless real-time rights were obtained");
+  line.flag("--require-rt", options.require_rt, "End the node unless real-time privileges were obtained");
   line.flag("-q,--quiet", options.quiet, "Only warnings and errors");
   line.exit_codes({kOk, kFailed, kUsage, kInterrupted});
   if (const auto code = line.parse_program(argc, argv)) {

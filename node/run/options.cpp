@@ -46,7 +46,7 @@ std::string idle_options(const Options& options) {
     return "--network and --script are for --sim of all boards of a plant: name its manifest, and no --board";
   }
   if (options.require_rt && options.simulation.on) {
-    return "--require-rt and --sim: virtual time needs no rights; leave out one of them";
+    return "--require-rt and --sim: virtual time needs no privileges; leave out one of them";
   }
   return "";
 }

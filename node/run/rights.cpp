@@ -85,7 +85,7 @@ Result<Rights, Ending> obtain_rights(const Options& options, const config::Confi
                   "SCHED_FIFO refused: run as root, or give the user rtprio 95 and memlock unlimited in "
                   "/etc/security/limits.d, or the program CAP_SYS_NICE and CAP_IPC_LOCK");
     if (options.require_rt) {
-      console.error("real-time rights not obtained (--require-rt): {}", obtained.why);
+      console.error("real-time privileges not obtained (--require-rt): {}", obtained.why);
       return Ending{kNoRealTime};
     }
     console.warning("NOT REAL TIME: {}. Order is kept, timing is best effort", obtained.why);
@@ -97,7 +97,7 @@ Rights simulated_rights(const Options& options, const config::Config& config) {
   Rights rights;
   rights.core = std::max(options.core.value_or(config.core), 0);
   rights.obtained.tick_core = -1;
-  rt::copy_text(rights.obtained.why, "simulation: virtual time needs no real-time rights");
+  rt::copy_text(rights.obtained.why, "simulation: virtual time needs no real-time privileges");
   return rights;
 }
 
@@ -112,7 +112,7 @@ Result<void, Ending> lock_memory(const Options& options, const Rights& rights, s
   } else if (rights.realtime()) {
     rt::copy_text(run.obtained.why, "mlockall refused: raise the limit of locked memory (memlock unlimited)");
     if (options.require_rt) {
-      console.error("real-time rights not obtained (--require-rt): {}", run.obtained.why);
+      console.error("real-time privileges not obtained (--require-rt): {}", run.obtained.why);
       return Ending{kNoRealTime};
     }
     console.warning("memory is not locked: {}", run.obtained.why);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rights the machine grants the node for real time: a core, FIFO priorities, short idle states, locked memory.
-// Without rights the node runs as well as it can and reports that, or ends (--require-rt).
+// The privileges that the machine grants the node for real time: a core, FIFO priorities, short idle states, locked
+// memory. Without them the node runs as well as it can and reports that, or ends (--require-rt).
 
 #pragma once
 
@@ -24,7 +24,7 @@ struct Rights {
 
 Result<Rights, Ending> obtain_rights(const Options& options, const config::Config& config, const Console& console);
 
-// A simulation needs no rights: only the core for modules without a configured core is set.
+// A simulation needs no privileges: only the core for modules without a configured core is set.
 Rights simulated_rights(const Options& options, const config::Config& config);
 
 // Locks the memory, so that no page is loaded on demand; reports in `run` whether that worked. Call it late, after

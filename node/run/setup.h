@@ -15,7 +15,7 @@ namespace indurop::node {
 
 struct Placement {
   int core = 0;          // of modules without a configured core
-  bool realtime = true;  // without real-time rights nothing is pinned
+  bool realtime = true;  // without real-time privileges nothing is pinned
 };
 
 // Where the modules of a node with these rights run.

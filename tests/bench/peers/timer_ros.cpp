@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   parameters.sched_priority = 90;
   if (sched_setaffinity(0, sizeof set, &set) != 0 || sched_setscheduler(0, SCHED_FIFO, &parameters) != 0 ||
       mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
-    std::fprintf(stderr, "no real-time rights\n");
+    std::fprintf(stderr, "no real-time privileges\n");
     return 1;
   }
   ros::init(argc, argv, "peers_timer", ros::init_options::NoSigintHandler | ros::init_options::NoRosout);

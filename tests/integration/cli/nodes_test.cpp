@@ -177,7 +177,7 @@ TEST_F(CommandLine, Nodes_of_one_host_take_different_cores) {
   EXPECT_EQ(indurop({"status", "--node", "left", "-o", "json"}).json()["rt"]["core"], left["core"]);
   EXPECT_EQ(indurop({"stop", "--node", "left"}).code, 0);
   if (!left["pinned"].get<bool>() || std::thread::hardware_concurrency() != 2) {
-    GTEST_SKIP() << "needs real-time rights and two cores";
+    GTEST_SKIP() << "needs real-time privileges and two cores";
   }
   EXPECT_NE(left["core"], right["core"]);
   EXPECT_THAT(third.out, HasSubstr("shares core 0 with"));
@@ -205,7 +205,7 @@ TEST_F(CommandLine, Nodes_that_start_at_once_share_the_cores_evenly) {
       EXPECT_EQ(node->wait(), 0) << node->out();
     }
     if (!pinned || std::thread::hardware_concurrency() != 2) {
-      GTEST_SKIP() << "needs real-time rights and two cores";
+      GTEST_SKIP() << "needs real-time privileges and two cores";
     }
     EXPECT_EQ(on_core[0], 2) << "round " << round;
     EXPECT_EQ(on_core[1], 2) << "round " << round;

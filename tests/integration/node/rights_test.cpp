@@ -15,7 +15,7 @@ namespace {
 
 class Rights : public NodeTest {
  protected:
-  // The node as a user without real-time rights. Empty: skip, for the reason in `why`.
+  // The node as a user without real-time privileges. Empty: skip, for the reason in `why`.
   std::optional<Environment> without_rights(std::string& why) {
     Environment result = environment();
     if (::geteuid() != 0) {
@@ -54,7 +54,7 @@ TEST_F(Rights, An_ordinary_user_gets_the_order_and_a_message_about_what_is_missi
   ASSERT_EQ(sut.wait(), 0);
   const auto report = nlohmann::json::parse(std::ifstream(folder() / "r.json"));
   if (report["rt"]["fifo"] == true) {
-    GTEST_SKIP() << "this user has real-time rights";
+    GTEST_SKIP() << "this user has real-time privileges";
   }
   EXPECT_CONTAINS(sut.err(), "NOT REAL TIME: SCHED_FIFO refused");
   EXPECT_EQ(order_violations(*run()), 0);
@@ -69,10 +69,10 @@ TEST_F(Rights, Required_and_not_obtained_is_exit_code_7) {
   Program& sut = start_file(write("module.xml", xml(three())), {"--require-rt", "--duration", "10ms"}, *unprivileged);
   const int code = sut.wait();
   if (code == 0) {
-    GTEST_SKIP() << "this user has real-time rights";
+    GTEST_SKIP() << "this user has real-time privileges";
   }
   EXPECT_EQ(code, 7);
-  EXPECT_CONTAINS(sut.err(), "real-time rights not obtained (--require-rt)");
+  EXPECT_CONTAINS(sut.err(), "real-time privileges not obtained (--require-rt)");
 }
 
 TEST_F(Rights, Name_of_another_users_node_is_refused) {

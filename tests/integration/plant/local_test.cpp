@@ -212,7 +212,7 @@ TEST_F(Local, Options_that_would_do_nothing_are_refused) {
       {{"--local", "--node", "x"}, "leave out --node"},
       {{"--sim", "--board", board("sensor"), "--network", "delay=1ms"}, "for --sim of all boards"},
       {{"--sim", "--board", board("sensor"), "--script", script}, "for --sim of all boards"},
-      {{"--sim", "--require-rt"}, "virtual time needs no rights"},
+      {{"--sim", "--require-rt"}, "virtual time needs no privileges"},
       {{"--sim", "--replay-board", "x"}, "--replay-board is for --replay"},
       {{"--sim", "--with", "x.so"}, "--with is for --replay"},
       {{"--replay", "x.mcap", "--board", board("sensor"), "--until", "1s"}, "a replay ends with its recording"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Order between bands that do not share one FIFO core: several cores, or no real-time rights at all.
+// Order between bands that do not share one FIFO core: several cores, or no real-time privileges at all.
 
 #include <gtest/gtest.h>
 

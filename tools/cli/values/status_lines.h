@@ -13,7 +13,7 @@
 
 namespace indurop::tools {
 
-// Returns two or three lines: state, key values, real-time rights.
+// Returns two or three lines: state, key values, real-time privileges.
 std::vector<std::string> header_lines(const NodeReport& report, const Output& output);
 std::vector<std::string> mirror_lines(const MirrorView& view, const Output& output);
 std::vector<std::string> external_lines(const ExternalView& view, const Output& output);

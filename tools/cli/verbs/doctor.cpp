@@ -259,9 +259,9 @@ Action declare_doctor(base::Options& app, Context& context) {
 
 const Verb kDoctorVerb{
     "doctor", "Before it runs", "Show whether this machine is fit for real time, and what to do if not",
-    "Checks the kernel, clocks, cores, rights, memory and disk, then measures for two seconds how late a\n"
-    "thread is woken every millisecond. `indurop status` shows what a running node was granted. Exit code 0 if\n"
-    "nothing is marked FAIL, else 1.\n"
+    "Checks the kernel, clocks, cores, privileges, memory and disk, then measures for two seconds how late\n"
+    "a thread is woken every millisecond. `indurop status` shows what a running node was granted. Exit code\n"
+    "0 if nothing is marked FAIL, else 1.\n"
     "Examples:\n"
     "  indurop doctor\n"
     "  indurop doctor -o json\n"

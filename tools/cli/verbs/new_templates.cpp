@@ -272,7 +272,7 @@ An InduRoP project: modules that share variables.
     indurop jitter
     indurop stop
 
-Real-time priority needs rights; without them everything works, only less exactly. `indurop doctor` says what is missing.
+Real time needs privileges; without them, timing is not guaranteed. `indurop doctor` lists what is missing.
 If `indurop` is not found, put it into PATH: `export PATH=@PROGRAMS@:$PATH`.
 )text";
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop status: the state of the node, its real-time rights, and the state of its modules.
+// indurop status: the state of the node, its real-time privileges, and the state of its modules.
 #include <fmt/format.h>
 
 #include "core/rt/clock.h"
