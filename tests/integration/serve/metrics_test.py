@@ -83,7 +83,8 @@ def test_figures_are_those_of_status(setting):
 def test_alarms_forces_and_chosen_values(setting):
     setting.start_node()
     server = setting.start_server("--write", "--token-file", setting.tokens, "--metrics", "press::*", "--metrics", "press::oil",
-                                  "--metrics", "joints[1].y", "--metrics", "station::name", "--metrics", "nothing::*")
+                                  "--metrics", "joints[1].y", "--metrics", "joints[2]", "--metrics", "station::name", "--metrics",
+                                  "nothing::*")
     board = {"board": setting.node}
     base = f"/api/v1/boards/{setting.node}"
     assert server.post(base + "/set", {"values": {"press::oil": 90.5, "press::door_open": True, "joints[1].y": -12.25}}).status == 200
@@ -96,7 +97,8 @@ def test_alarms_forces_and_chosen_values(setting):
     count = len(server.get(base + "/variables?values=false").json()["variables"])
     assert value(samples, "indurop_variables", quality="good", **board) == count
     shown = {dict(labels)["variable"]: number for (name, *labels), number in samples.items() if name == "indurop_variable_value"}
-    assert shown == {"press::oil": 90.5, "press::door_open": 1, "knu::Robot::joints[1].y": -12.25}, shown
+    assert shown == {"press::oil": 90.5, "press::door_open": 1, "knu::Robot::joints[1].y": -12.25,
+                     "knu::Robot::joints[2].x": 0, "knu::Robot::joints[2].y": 0, "knu::Robot::joints[2].z": 0}, shown
 
 
 def test_qualities_of_devices(setting):

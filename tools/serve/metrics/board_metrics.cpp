@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/serve/metrics/board_metrics.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <map>
 #include <optional>
+#include <span>
+#include <string>
 
 #include "core/schema/leaf.h"
 #include "tools/client/node/mirror_view.h"
@@ -89,6 +93,31 @@ std::optional<double> number_of(const vars::Store& store, const tools::Item& ite
   return bytes ? schema::as_number<double>(item.place.type.base, bytes->data()) : std::nullopt;
 }
 
+using Values = std::map<std::string, double>;  // by the name of the variable or part
+
+// Adds the numbers and bools of a value, up to kMostMetricValues in all.
+void add_numbers(Values& values, const std::string& name, const schema::Type& type,
+                 std::span<const std::uint8_t> bytes) {
+  if (values.size() >= kMostMetricValues) {
+    return;
+  }
+  if (!type.dims.empty()) {
+    schema::Type element = type;
+    element.dims.erase(element.dims.begin());
+    for (std::uint32_t i = 0; i < type.dims.front(); ++i) {
+      add_numbers(values, fmt::format("{}[{}]", name, i), element, bytes.subspan(i * element.size(), element.size()));
+    }
+    return;
+  }
+  for (const schema::Field& field : type.fields) {
+    add_numbers(values, fmt::format("{}.{}", name, field.name), field.type,
+                bytes.subspan(field.offset, field.type.size()));
+  }
+  if (const auto number = schema::as_number<double>(type.base, bytes.data())) {
+    values.emplace(name, *number);
+  }
+}
+
 void add_variables(Exposition& out, const Board& board, const std::vector<std::string>& selected) {
   const vars::Store& store = *board.store();
   std::array<std::uint64_t, 3> counts{};
@@ -100,12 +129,11 @@ void add_variables(Exposition& out, const Board& board, const std::vector<std::s
     out.add(Metric::Variables, {{"board", board.name()}, {"quality", word_of(static_cast<Quality>(i))}}, counts.at(i));
   }
   out.add(Metric::ForcedValues, {{"board", board.name()}}, std::uint64_t{store.forces().size()});
-  std::map<std::string, double> values;  // a variable that several patterns match is shown once
+  Values values;  // a variable that several patterns match is shown once
   for (const std::string& pattern : selected) {
     for (const tools::Item& item : items_named(store, board.name(), {pattern}, ignored)) {
-      const auto number = values.size() < kMostMetricValues ? number_of(store, item) : std::nullopt;
-      if (number) {
-        values.emplace(item.name, *number);
+      if (const auto bytes = operate::read(store, item)) {
+        add_numbers(values, item.name, item.place.type, *bytes);
       }
     }
   }
