@@ -165,6 +165,8 @@ void read_requests() {
   for (std::size_t k = 0; k < in.breakpoints.size(); ++k) {
     in.breakpoints[k] = {pause.nJob[k], pause.nLine[k]};
   }
+  const ROBOT_ANSWER_t answer = ROBOT_ANSWER;
+  in.answer = {answer.nRequest, answer.nQuestion, answer.dAnswer, valid(ROBOT_ANSWER)};
   // Who cannot hear the emergency stop, which is the cell's, stops.
   in.emergency = PLC_ROBOT::EMERGENCY_STOP.bActive != 0 || !valid(PLC_ROBOT::EMERGENCY_STOP);
 }
@@ -225,6 +227,24 @@ void write_job() {
   job->cMessage = out.job.message;
   job->bResume = out.job.can_resume;
   job->called = out.job.called;
+}
+
+void write_question() {
+  const robot::QuestionReport& asked = out.job.question;
+  auto question = lock(ROBOT_QUESTION);
+  question->nNumber = asked.number;
+  question->cText = asked.text;
+  question->nChoices = static_cast<uint16_t>(asked.count);
+  for (std::size_t k = 0; k < asked.choices.size(); ++k) {
+    question->cChoice[k] = asked.choices[k];
+  }
+  question->dLower = asked.lower;
+  question->dUpper = asked.upper;
+  question->dStep = asked.step;
+  question->dLeft = asked.left;
+  question->nAcknowledge = asked.acknowledged;
+  question->nError = static_cast<ROBOT_ERROR>(asked.error);
+  question->cReason = asked.reason;
 }
 
 void write_axis_states() {
@@ -308,6 +328,7 @@ void run() {
   write_state();
   write_arm();
   write_job();
+  write_question();
   write_axis_states();
   write_answers();
   write_tool();

@@ -21,6 +21,7 @@ Group::Group(GroupParts parts)
       job_motions_(robot_, plans_, resuming_, shelf_, torques_),
       services_(robot_, *this, {plans_, resuming_, conveyor_, queue_, mode_, stops_, power_, job_motions_}),
       service_(robot_, *this, plans_, services_),
+      answers_(robot_.job),
       commands_(robot_, service_, queue_, conveyor_, stops_),
       overrides_(robot_, conveyor_),
       reloading_(robot_, *this, plans_, gate_.clear(), torques_),
@@ -43,6 +44,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
       robot_.axes[i].serve(in.axes[at(i)], mode_.axis_permit());
     }
   }
+  answers_.serve(in.answer);
   jogging_.step(in.jog, mode_.permits_jogging());
   overrides_.step(in, queue_.interrupted(), mode_, jogging_.on());
   robot_.job.set_pauses(in.single_step, in.breakpoints);
@@ -153,6 +155,7 @@ void Group::report(Outputs& out) noexcept {
   out.tool = static_cast<std::uint32_t>(robot_.tool.number());
   out.tool_name = robot_.tool.tool().name.c_str();
   out.job = robot_.job.report(robot_.follower.source());
+  answers_.report(out.job.question);
   if (overrides_.wrong()) {
     out.job.message = "ROBOT_OVERRIDE or MC_FACTORS is below 0 or no number, so the robot holds: correct it";
   }

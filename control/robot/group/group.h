@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include "control/robot/group/answer_desk.h"
 #include "control/robot/group/breakdown.h"
 #include "control/robot/group/command_desk.h"
 #include "control/robot/group/conveyor_tracking.h"
@@ -103,6 +104,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   JobMotions job_motions_;
   Services services_;
   ServiceDesk service_;
+  AnswerDesk answers_;
   CommandDesk commands_;
   Overrides overrides_;
   Reloading reloading_;

@@ -7,7 +7,7 @@
 namespace indurop::robot {
 
 void Group::run_state(Signals& signals) noexcept {
-  robot_.job.end_pulses(robot_.period, signals);
+  robot_.job.pulses().step(robot_.period, signals);
   reloading_.step(service_.is_serving(Service::JobReload), queue_.empty() && !power_.enabling(), signals);
   torques_.weigh_pushing();
   robot_.axes.move();

@@ -7,7 +7,8 @@
 namespace indurop::robot {
 
 bool Reloading::possible(bool resting) const noexcept {
-  return resting && robot_.states.resting() && !robot_.axes.any_busy() && group_.settled() && !robot_.job.pulses();
+  return resting && robot_.states.resting() && !robot_.axes.any_busy() && group_.settled() &&
+         !robot_.job.pulses().any();
 }
 
 void Reloading::step(bool wanted, bool resting, Signals& signals) noexcept {

@@ -22,6 +22,8 @@ const char* BlockReader::word_of(Kind kind) noexcept {
       return "SWITCH";
     case Kind::Wait:
       return "WAIT ... ELSE";
+    case Kind::Ask:
+      return "ASK ... ELSE";
     case Kind::Try:
       break;
   }
@@ -207,16 +209,19 @@ void BlockReader::case_default() {
   blocks_.back().has_else = true;
 }
 
-void BlockReader::wait_else() {
+void BlockReader::timeout_else() {
   if (line_.failed() || !line_.accept("ELSE")) {
     return;
   }
   const std::size_t wait = draft_.next() - 1;
-  if (draft_.last().op != Op::WaitUntil || !(draft_.last().timeout > 0)) {
-    line_.error(line_.before(), "ELSE follows a time, WAIT I4 TIMEOUT 2s ELSE; a WAIT without one waits for ever");
+  const Op op = draft_.last().op;
+  if (op == Op::WaitTime || !(draft_.last().timeout > 0)) {
+    line_.error(line_.before(), std::string("ELSE follows a time, ") +
+                                    (op == Op::Ask ? "TIMEOUT 30s ELSE; an ASK" : "WAIT I4 TIMEOUT 2s ELSE; a WAIT") +
+                                    " without one waits for ever");
     return;
   }
-  begin_part(open(Kind::Wait, wait, wait));
+  begin_part(open(op == Op::Ask ? Kind::Ask : Kind::Wait, wait, wait));
 }
 
 void BlockReader::try_block() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements of blocks that END closes: IF, WHILE, FOR, LOOP, SWITCH and TRY, and the ELSE of a WAIT.
+// Statements of blocks that END closes: IF, WHILE, FOR, LOOP, SWITCH and TRY, and the ELSE of a WAIT or ASK.
 
 #pragma once
 
@@ -27,8 +27,8 @@ class BlockReader {
   void case_default();
   // Leaves the innermost loop.
   void exit();
-  // Reads the ELSE after a WAIT, if there is one.
-  void wait_else();
+  // Reads the ELSE after a WAIT or an ASK, if there is one.
+  void timeout_else();
   void try_block();
   void recover();
   void end_block();
@@ -37,7 +37,7 @@ class BlockReader {
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  enum class Kind { If, While, For, Loop, Switch, Wait, Try };
+  enum class Kind { If, While, For, Loop, Switch, Wait, Ask, Try };
   struct Block {
     Kind kind = Kind::If;
     std::size_t line = 0;

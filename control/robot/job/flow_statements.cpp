@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/job/flow_statements.h"
 
+#include <indurop/robot/questions.h>
+
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,13 +26,96 @@ void FlowReader::wait() {
     return;
   }
   const int formula = expressions_.read("a condition");
-  double timeout = 0;
-  if (!line_.failed() && line_.accept("TIMEOUT")) {
-    line_.duration(timeout);
-  }
   Step& step = draft_.add(Op::WaitUntil);
   step.formula = formula;
-  step.timeout = timeout;
+  timeout(step);
+}
+
+void FlowReader::timeout(Step& step) {
+  if (!line_.failed() && line_.accept("TIMEOUT")) {
+    line_.duration(step.timeout);
+  }
+}
+
+// Parses "ASK n = "Which tray?" CHOICE "left", "right"", "ASK n = "How many parts?" 1 TO 40 TIMEOUT 30s"
+void FlowReader::ask() {
+  JobQuestion question;
+  const JobToken name = line_.peek();
+  const bool keeps_answer = name.kind != JobToken::Kind::Text;
+  if (keeps_answer) {
+    line_.take();
+    if (!line_.accept("=")) {
+      line_.error(line_.peek(), "expected '=', found " + JobLine::shown(line_.peek()) +
+                                    "; ASK n = \"How many parts?\" 1 TO 40, ASK n = \"Which tray?\" CHOICE \"left\", "
+                                    "\"right\"");
+    }
+  }
+  question.text = line_.failed() ? -1 : text();
+  if (!line_.failed() && line_.accept("CHOICE")) {
+    choices(question);
+  } else if (!line_.failed()) {
+    range(question);
+  }
+  if (!line_.failed() && keeps_answer) {
+    question.variable = draft_.variable_called(name.text);
+    if (draft_.array_at(question.variable) > 0) {
+      line_.error(name, in_quotes(name.text) + " is an array; ask for a variable, and assign it to an element then");
+    }
+    question.variable = question.variable >= 0 ? question.variable : expressions_.declare(name);
+  }
+  Step& step = draft_.add(Op::Ask);
+  step.slot = static_cast<int>(draft_.book().questions.size());
+  timeout(step);
+  draft_.book().questions.push_back(std::move(question));
+}
+
+void FlowReader::choices(JobQuestion& question) {
+  do {
+    const JobToken choice = line_.take();
+    if (choice.kind != JobToken::Kind::Text) {
+      line_.error(choice, "expected an answer in quotes, found " + JobLine::shown(choice));
+      return;
+    }
+    const std::string text(choice.text.substr(1, choice.text.size() - 2));
+    if (text.empty() || text.size() > kMaxChoiceText) {
+      line_.error(choice,
+                  "an answer has 1 to " + std::to_string(kMaxChoiceText) + " bytes; explain it in the question");
+    } else if (std::find(question.choices.begin(), question.choices.end(), text) != question.choices.end()) {
+      line_.error(choice, "there is already an answer " + in_quotes(text));
+    } else if (question.choices.size() == kMaxChoices) {
+      line_.error(choice, "more than " + std::to_string(kMaxChoices) + " answers; ask for a number, 1 TO 20");
+    }
+    question.choices.push_back(text);
+  } while (!line_.failed() && line_.accept(","));
+}
+
+// Parses "1 TO 40", "0 TO length STEP 0.5"
+void FlowReader::range(JobQuestion& question) {
+  const JobToken from = line_.peek();
+  std::vector<Formula> range;
+  if (line_.at_end()) {
+    line_.error(from, "expected the answers, CHOICE \"yes\", \"no\", or their range, 1 TO 40");
+    return;
+  }
+  range.push_back(expressions_.formula("CHOICE, or the smallest answer"));
+  if (!line_.failed() && !line_.accept("TO")) {
+    line_.error(line_.peek(), "expected TO and the largest answer, found " + JobLine::shown(line_.peek()));
+  }
+  if (line_.failed()) {
+    return;
+  }
+  const JobToken to = line_.peek();
+  range.push_back(expressions_.formula("the largest answer"));
+  const bool written = from.kind == JobToken::Kind::Number && to.kind == JobToken::Kind::Number;
+  if (!line_.failed() && written && range[0].size() == 1 && range[1].size() == 1 && from.value > to.value) {
+    line_.error(from, "no number is in this range; the smaller one comes first");
+  }
+  const JobToken step = line_.after();
+  if (!line_.failed() && line_.accept("STEP") && line_.numbers(1, &question.step, "how far answers are apart") &&
+      !(question.step > 0)) {
+    line_.error(step, "answers are apart by more than 0; STEP 0.1");
+  }
+  question.lower = draft_.keep(std::move(range));
 }
 
 void FlowReader::call(int result) {

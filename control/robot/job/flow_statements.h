@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements that wait, jump, call and fail: WAIT, GOTO and LABEL, CALL, RETURN, RAISE, MESSAGE, and interrupts, "ON I4
-// AND I5 CALL eject", "OFF CALL eject".
+// Statements that wait, ask, jump, call and fail: WAIT, ASK, GOTO and LABEL, CALL, RETURN, RAISE, MESSAGE, and
+// interrupts, "ON I4 AND I5 CALL eject", "OFF CALL eject".
 
 #pragma once
 
@@ -14,6 +14,7 @@ class FlowReader {
       : line_(parts.line), draft_(parts.draft), names_(parts.names), expressions_(parts.expressions) {}
 
   void wait();
+  void ask();
   // Reads the name of a job and what it gets. `result`: variable that its RETURN sets; -1: none.
   void call(int result = -1);
   void leave();
@@ -27,6 +28,9 @@ class FlowReader {
  private:
   // Reads texts and numbers with commas between them. Returns the index of the text in the book.
   int text();
+  void timeout(Step& step);
+  void choices(JobQuestion& question);
+  void range(JobQuestion& question);
 
   JobLine& line_;
   JobDraft& draft_;

@@ -36,6 +36,7 @@ enum class Op : std::uint8_t {
                  // formula: of the element's number, followed by that of the value
   WaitUntil,     // formula; timeout; index: step after a timeout, -1: the job fails
   WaitTime,      // value: s
+  Ask,           // slot: question of the book; timeout; index: as WaitUntil
   Call,          // index: job; formula: its first argument; mid: number of arguments; slot: variable for its result
   Arm,           // index: job; formula; slot: interrupt of the book
   Disarm,        // index: job
@@ -81,6 +82,15 @@ struct JobText {
     int formula = -1;  // -1: the text counts
   };
   std::vector<Part> parts{};
+};
+
+// An ASK statement: what the operator is asked, and what the answer may be.
+struct JobQuestion {
+  int text = -1;                       // of the book
+  std::vector<std::string> choices{};  // empty: it asks for a number
+  int lower = -1;                      // formula: range of that number; the next formula is its upper end
+  double step = 1;                     // answers are whole multiples of it above the lower end
+  int variable = -1;                   // of the job, receives the answer; -1: none
 };
 
 // What the line of a motion says besides its points.
@@ -185,6 +195,7 @@ struct JobBook {
   std::vector<ComputedPlace> computed{};
   std::vector<MotionExtras> extras{};
   std::vector<JobText> texts{};
+  std::vector<JobQuestion> questions{};
   // An ON statement: its condition, and the job that it calls when the condition becomes true.
   struct Interrupt {
     int formula = -1;

@@ -11,10 +11,8 @@ namespace {
 constexpr std::size_t kMostSteps = 20000;
 constexpr const char* kStatements =
     "POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, VAR, SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SEARCH, SET, "
-    "PULSE, WAIT, "
-    "CALL, ON, OFF, RETURN, RAISE, MESSAGE, LABEL, GOTO, IF, ELSEIF, ELSE, WHILE, FOR, LOOP, EXIT, SWITCH, CASE, "
-    "DEFAULT, TRY, "
-    "RECOVER and END";
+    "PULSE, WAIT, ASK, CALL, ON, OFF, RETURN, RAISE, MESSAGE, LABEL, GOTO, IF, ELSEIF, ELSE, WHILE, FOR, LOOP, EXIT, "
+    "SWITCH, CASE, DEFAULT, TRY, RECOVER and END";
 
 }  // namespace
 
@@ -82,7 +80,12 @@ void JobParser::statement() {
       {"WAIT",
        [](JobParser& p) {
          p.flow_.wait();
-         p.blocks_.wait_else();
+         p.blocks_.timeout_else();
+       }},
+      {"ASK",
+       [](JobParser& p) {
+         p.flow_.ask();
+         p.blocks_.timeout_else();
        }},
       {"CALL", [](JobParser& p) { p.flow_.call(); }},
       {"ON", [](JobParser& p) { p.flow_.arm(); }},

@@ -52,6 +52,7 @@ bool touches_world(const JobBook& book, const Step& step) noexcept {
     case Op::Raise:
     case Op::WaitUntil:
     case Op::WaitTime:
+    case Op::Ask:
     case Op::Tool:
     case Op::Load:
     case Op::Arm:
@@ -197,6 +198,7 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
       break;
     case Op::WaitUntil:
     case Op::WaitTime:
+    case Op::Ask:
       next = wait(step, seconds, signals, port);
       break;
     case Op::Call:
@@ -329,11 +331,13 @@ JobRunner::Next JobRunner::wait(const Step& step, double seconds, Signals& signa
     state_ = JobState::Waits;
     return waited_ + kRounding >= step.value ? Next::Go : Next::Wait;
   }
-  double value = 0;
-  if (!compute(step.formula, signals, port, value)) {
+  double met = 0;
+  const auto flaw = step.op == Op::Ask ? question_.ask(step, waited_, values_, signals, port, met)
+                                       : values_.number(step.formula, signals, port, met);
+  if (done(flaw) == Next::Wait) {
     return Next::Wait;
   }
-  if (value != 0) {
+  if (met != 0) {
     return Next::Go;
   }
   state_ = JobState::Waits;
@@ -341,8 +345,9 @@ JobRunner::Next JobRunner::wait(const Step& step, double seconds, Signals& signa
   if (step.timeout <= 0 || waited_ < step.timeout) {
     return Next::Wait;
   }
+  question_.close();
   if (step.index < 0) {
-    refuse({ErrorCode::Line}, "waited in vain");
+    refuse({ErrorCode::Line}, step.op == Op::Ask ? "the question was not answered in time" : "waited in vain");
     return Next::Wait;
   }
   jobs_.go_to(step.index - 1);  // from which run() advances

@@ -14,6 +14,7 @@
 #include "control/robot/job/job.h"
 #include "control/robot/job/job_places.h"
 #include "control/robot/job/motion_port.h"
+#include "control/robot/job/open_question.h"
 #include "control/robot/job/path_outputs.h"
 #include "control/robot/job/pulses.h"
 #include "control/robot/job/step_motions.h"
@@ -30,6 +31,7 @@ class JobRunner {
         places_(book),
         values_(book, jobs_, places_),
         motions_(book, places_, values_),
+        question_(book),
         interrupts_(book) {}
   JobRunner(const JobRunner&) = delete;
   JobRunner& operator=(const JobRunner&) = delete;
@@ -58,11 +60,12 @@ class JobRunner {
   // that is not possible; outputs that are to be set during it or a later motion are discarded.
   bool recover(Fault fault, const char* why, int source, std::uint32_t ticket) noexcept;
   void step(double seconds, Signals& signals, MotionPort& port) noexcept;
-  // Called once per period, whether a job runs or not.
-  void end_pulses(double seconds, Signals& signals) noexcept { pulses_.step(seconds, signals); }
+  // The question that waits for an answer; null: none. While the job is stopped, paused or interrupted, its question
+  // cannot be answered; then it is asked again.
+  [[nodiscard]] OpenQuestion* open_question() noexcept;
+  // Timed outputs, which end whether a job runs or not.
+  [[nodiscard]] Pulses& pulses() noexcept { return pulses_; }
 
-  // Returns whether timed outputs are on.
-  [[nodiscard]] bool pulses() const noexcept { return pulses_.any(); }
   // Clears all state about jobs, because the book was replaced.
   void forget() noexcept;
 
@@ -84,6 +87,7 @@ class JobRunner {
   // Waits, and the job has failed or continues after RECOVER, if there is a flaw.
   Next done(const StepValues::Flaw& flaw) noexcept;
   bool compute(int formula, Signals& signals, const MotionPort& port, double& value) noexcept;
+  // Waits for a time, a condition or an answer.
   Next wait(const Step& step, double seconds, Signals& signals, const MotionPort& port) noexcept;
   Next set_on_path(const Step& step, Signals& signals, const MotionPort& port) noexcept;
   Next set(const Step& step, Signals& signals, const MotionPort& port) noexcept;
@@ -119,6 +123,7 @@ class JobRunner {
   };
   Search search_;
   double waited_ = 0;  // s in the present step
+  OpenQuestion question_;
   MotionSettings settings_;
   int load_ = 0;
   PathOutputs outputs_;
@@ -129,6 +134,7 @@ class JobRunner {
     JobState state = JobState::Runs;
     int depth = -1;
     double waited = 0;
+    OpenQuestion::Asked asked;
     MotionSettings settings;
     PathOutputs outputs;
     Search search;

@@ -37,9 +37,11 @@ bool JobRunner::serve_interrupts(Signals& signals, MotionPort& port) noexcept {
 }
 
 void JobRunner::begin_interrupt() noexcept {
-  interrupted_ = {state_, jobs_.depth(), waited_, settings_, outputs_, search_, places_.found(), in_job_};
+  interrupted_ = {state_,  jobs_.depth(),   waited_, question_.asked(), settings_, outputs_,
+                  search_, places_.found(), in_job_};
   state_ = JobState::Runs;
   waited_ = 0;
+  question_.close();
   outputs_.clear();
   search_ = {};
   in_job_ = false;
@@ -62,6 +64,7 @@ void JobRunner::end_interrupt() noexcept {
   jobs_.return_to(left.depth);
   state_ = left.state;
   waited_ = left.waited;
+  question_.set_asked(left.asked);
   settings_ = left.settings;
   outputs_ = left.outputs;
   search_ = left.search;
@@ -135,6 +138,7 @@ bool JobRunner::continue_after(double number, std::uint32_t ticket) noexcept {
     jobs_.jump(guard.index);
     state_ = JobState::Runs;
     waited_ = 0;
+    question_.close();
     search_ = {};
     return true;
   }

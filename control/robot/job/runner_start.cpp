@@ -19,6 +19,7 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   jobs_.reset(job);
   job_ = job;
   waited_ = 0;
+  question_.close();
   search_ = {};
   places_.reset();
   values_.reset();
@@ -63,6 +64,7 @@ void JobRunner::go_back(int source) noexcept {
     return each.op == Op::Move && each.line == MotionLine::of(source).line;
   });
   jobs_.jump(static_cast<int>(found - steps.begin()));
+  question_.close();
   line_ = found->line;
   line_job_ = jobs_.job();
   state_ = JobState::Paused;
@@ -74,6 +76,7 @@ void JobRunner::forget() noexcept {
   jobs_.reset();
   job_ = -1;
   waited_ = 0;
+  question_.close();
   outputs_ = {};
   search_ = {};
   places_.reset();
@@ -82,6 +85,12 @@ void JobRunner::forget() noexcept {
   line_ = 0;
   line_job_ = -1;
   message_[0] = '\0';
+}
+
+OpenQuestion* JobRunner::open_question() noexcept {
+  const bool waits = state_ == JobState::Waits && !interrupts_.is(Interrupts::Phase::Leaving) &&
+                     !interrupts_.is(Interrupts::Phase::Returning);
+  return waits && question_.is_open() ? &question_ : nullptr;
 }
 
 void JobRunner::set_message(const char* text) noexcept {

@@ -40,6 +40,12 @@ class StepValues {
   Flaw assign(const Step& step, Signals& signals, const MotionPort& port) noexcept;
   Flaw give_back(const Step& step, Signals& signals, const MotionPort& port) noexcept;
   Flaw compute_place(const Step& step, Signals& signals, const MotionPort& port) noexcept;
+  // Sets a variable of the job; -1: none.
+  void store(int variable, double value) noexcept {
+    if (variable >= 0) {
+      jobs_.variables()[static_cast<std::size_t>(variable)] = value;
+    }
+  }
 
  private:
   [[nodiscard]] FormulaInput input(Signals& signals, const MotionPort& port) const noexcept {

@@ -6,6 +6,7 @@
 
 #include <indurop/result.h>
 #include <indurop/robot/commands.h>
+#include <indurop/robot/questions.h>
 #include <indurop/robot/words.h>
 #include <indurop/string.h>
 
@@ -166,6 +167,7 @@ struct Inputs {
   Breakpoints breakpoints{};
   JogRequest jog;
   ModeRequest mode;
+  AnswerRequest answer;
 };
 
 // The status of one axis, as AXIS_STATUS[n]. A request is acknowledged, and later done or aborted, by its number.
@@ -214,6 +216,7 @@ struct JobReport {
   const char* message = "";  // the same
   bool can_resume = false;   // JobResume can resume it
   const char* called = "";   // valid as long as the controller
+  QuestionReport question{};
 };
 
 // Outputs of one period. Set points in `drives` keep every limit of the URDF; after an error the robot stops on the

@@ -35,6 +35,7 @@ std::uint64_t allocations_of(const std::string& urdf, const std::string& job, Ou
       ++in.service.number;
     }
     in.speed_override = i % 200 < 20 ? 30 : 100;
+    in.answer = {static_cast<std::uint32_t>(i / 5), out.job.question.number, i % 3 == 0 ? 20.0 : 50.0};
   }
   const std::uint64_t counted = g_allocations - before;
   message = out.job.message;  // lives as long as the controller
@@ -47,7 +48,8 @@ TEST(RobotAllocation, A_whole_job_allocates_nothing) {
   const std::string job =
       "POINT A = JOINT 20 10 -20 0 60 0\nPOINT B = POSE 500 100 400 RPY 180 0 180\n"
       "POINT C = POSE 500 -100 500 RPY 180 0 180\nPOINT FAR = POSE 3000 0 0 RPY 0 0 0\n"
-      "LOOP 3\nZONE 50\nMOVJ A\nMOVL B\nMOVL C\nSET O1 ON\nWAIT 50ms\nEND\nMOVC B A\nMOVL FAR\n";
+      "LOOP 3\nZONE 50\nMOVJ A\nMOVL B\nMOVL C\nSET O1 ON\nWAIT 50ms\n"
+      "ASK n = \"part \", O1, \" of how many?\" 1 TO 40 TIMEOUT 0.1s ELSE\nEND\nEND\nMOVC B A\nMOVL FAR\n";
   EXPECT_EQ(allocations_of(cell_urdf(), job, out, message), 0U);
   EXPECT_EQ(out.job.state, JobState::Failed);  // it came to its last line
   EXPECT_EQ(out.error, ErrorCode::Unreachable);

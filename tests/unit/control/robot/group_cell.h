@@ -23,13 +23,14 @@ namespace indurop::robot {
 class Cell final : public Signals {
  public:
   explicit Cell(const std::string& job = "", double period_ms = 10, std::uint32_t asked_before = 0, bool heard = true,
-                Settings settings = {}, const std::string& urdf = "") {
+                Settings settings = {}, const std::string& urdf = "", const JobTexts& others = {}) {
     settings.period = std::chrono::nanoseconds(static_cast<std::int64_t>(period_ms * 1e6));
     const std::string points =
         "POINT P1 = JOINT 20 10 -20 0 60 0\nPOINT P2 = POSE 500 100 400 RPY 180 0 180\n"
         "POINT P3 = POSE 3000 0 400 RPY 180 0 180\n";
     make_ = [=] {
-      return urdf.empty() ? controller_of(cell_urdf(), points + job, settings) : controller_of(urdf, job, settings);
+      return urdf.empty() ? controller_of(cell_urdf(), points + job, settings, others)
+                          : controller_of(urdf, job, settings, others);
     };
     sut = make_();
     for (DriveIn& drive : in.drives) {

@@ -31,9 +31,21 @@ struct Topic {
   const char* arm = "";
 };
 
+// The operator of the dialogue, who leaves two questions unanswered.
+void answer(Cell& cell) {
+  static const std::map<std::string, double> kAnswers{{"Is the door closed?", 1},
+                                                      {"Which tray has the parts?", 2},
+                                                      {"How many parts are in it?", 12},
+                                                      {"How high are they, in mm?", 22.5}};
+  const QuestionReport& question = cell.out.job.question;
+  if (const auto known = kAnswers.find(question.text); known != kAnswers.end()) {
+    cell.in.answer = {question.acknowledged + 1, question.number, known->second};
+  }
+}
+
 // What the cell around the robot does in each period; signals by name.
 using Values = std::map<std::string, double*>;
-void react(const std::string& topic, const Cell& cell, const Values& values, int period) {
+void react(const std::string& topic, Cell& cell, const Values& values, int period) {
   const auto set = [&](const char* name, double value) {
     if (const auto found = values.find(name); found != values.end()) {
       *found->second = value;
@@ -51,6 +63,7 @@ void react(const std::string& topic, const Cell& cell, const Values& values, int
     set("I5", period > 60 ? 1 : 0);
   } else if (topic == "dialogue") {
     set("I6", std::string(cell.out.job.message) == "load 4 parts, then press I6" && period % 100 == 0 ? 1 : 0);
+    answer(cell);
   } else if (topic == "machine_tending") {
     set("I1", get("O1"));
   }
@@ -98,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Twelve, Job_topics,
                                          Topic{"interrupts", {"eject"}, 250, 1e-3}, Topic{"glue", {}, 0, 0},
                                          Topic{"spline", {}, -150, 1e-3}, Topic{"search", {}, 317, 0.3},
                                          Topic{"timeouts", {}, 2, 1}, Topic{"subprograms", {"height"}, 180, 0},
-                                         Topic{"dialogue", {}, 0.5, 0.5},
+                                         Topic{"dialogue", {}, -200e3 + 22.5 + 12 * 10 + 1, 0.1},
                                          Topic{"external_axis", {}, 1000, 1e-3, "rail"},
                                          Topic{"machine_tending", {}, 211, 0}, Topic{"recovery", {}, 1072, 0}),
                          [](const auto& topic) { return std::string(topic.param.name); });

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <iterator>
 #include <random>
@@ -56,19 +57,22 @@ std::string difference(const Outputs& a, const Outputs& b) {
     return std::tuple(j.state, j.job, j.line, j.cycles, j.can_resume, std::string(j.name), std::string(j.message),
                       std::string(j.called));
   };
+  const auto question = [](const JobReport& j) {
+    const QuestionReport& q = j.question;
+    return std::tuple(q.number, std::string(q.text), q.count, std::string(q.choices[0]), q.lower, q.upper, q.step,
+                      q.left, q.acknowledged, q.error, std::string(q.reason));
+  };
   const auto tool = [](const Outputs& o) {
     return std::tuple(o.position, o.velocity, o.turning, o.tool_speed, o.path_speed, o.to_go);
   };
   const auto joints = [](const Outputs& o) {
     return std::array<AxisNumbers, 4>{o.joints, o.command, o.speed, o.acceleration};
   };
-  const std::pair<const char*, bool> parts[] = {{"drives", same_rows(a.drives, b.drives)},
-                                                {"group", group(a) == group(b)},
-                                                {"job", job(a.job) == job(b.job)},
-                                                {"axes", same_rows(a.axes, b.axes)},
-                                                {"commands", same_rows(a.commands, b.commands)},
-                                                {"joints", joints(a) == joints(b)},
-                                                {"tool", tool(a) == tool(b)}};
+  const std::pair<const char*, bool> parts[] = {
+      {"drives", same_rows(a.drives, b.drives)}, {"group", group(a) == group(b)},
+      {"job", job(a.job) == job(b.job)},         {"question", question(a.job) == question(b.job)},
+      {"axes", same_rows(a.axes, b.axes)},       {"commands", same_rows(a.commands, b.commands)},
+      {"joints", joints(a) == joints(b)},        {"tool", tool(a) == tool(b)}};
   const auto* const part =
       std::find_if(std::begin(parts), std::end(parts), [](const auto& one) { return !one.second; });
   return part == std::end(parts) ? "" : part->first;
@@ -78,7 +82,7 @@ void disturb(Cell& cell, int axes, std::mt19937& random) {
   const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   const auto one_of = [&](std::size_t many) { return std::uniform_int_distribution<std::size_t>(0, many - 1)(random); };
   const std::size_t axis = one_of(static_cast<std::size_t>(axes));
-  switch (one_of(16)) {
+  switch (one_of(18)) {
     case 0:
       cell.in.hold = !cell.in.hold;
       break;
@@ -107,6 +111,11 @@ void disturb(Cell& cell, int axes, std::mt19937& random) {
     case 9:
       cell.ask(Service::JobStart);
       break;
+    case 10:
+    case 11:
+      cell.in.answer = {cell.out.job.question.acknowledged + 1, cell.out.job.question.number, in(1, 3)};
+      cell.in.answer.value = std::round(cell.in.answer.value);
+      break;
     default:
       cell.in.hold = false;
       cell.in.emergency = false;
@@ -122,7 +131,9 @@ class Kept : public testing::Test {
     std::mt19937 random(seed);
     const Arm arm = arm_from_urdf("arm.urdf", urdf).value().arm;
     std::string job = random_job(arm, random).text;
-    job += "WAIT 0.1s\nSET a ON\nLOOP 2\nMOVJ Q0\nMOVL Q1\nEND\n";
+    job +=
+        "ASK n = \"where to\" CHOICE \"left\", \"right\" TIMEOUT 0.5s ELSE\nn = 0\nEND\nSET a = n\n"
+        "LOOP 2\nMOVJ Q0\nASK n = \"how far, \", n 1 TO 40 TIMEOUT 0.3s ELSE\nn = 5\nEND\nMOVL Q1\nEND\n";
     Cell one(job, period_ms, 0, true, {}, urdf);
     Cell sut(job, period_ms, 0, true, {}, urdf);
     ASSERT_TRUE(one.serve(Service::GroupEnable));
