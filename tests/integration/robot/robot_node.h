@@ -82,8 +82,9 @@ class RobotNode : public NodeTest {
   }
 
   // Each ok_NAME of the program says whether the block did what it should.
-  void run_blocks(const std::string& name, int priority = 3) {
-    auto all = modules("TOOL gripper = POSE 0 0 120 RPY 0 0 0\n");
+  void run_blocks(const std::string& name, int priority = 3,
+                  const std::string& job = "TOOL gripper = POSE 0 0 120 RPY 0 0 0\n") {
+    auto all = modules(job);
     all.push_back(
         {.file = std::string(BLOCKS_DIR) + "/" + name + ".so", .name = "plc", .period = "5ms", .priority = priority});
     const Outcome outcome = run_to_end(all, {"--sim", "--until", "90s"});

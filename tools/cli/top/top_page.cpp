@@ -13,6 +13,7 @@
 #include "store/operate/journal.h"
 #include "store/vars/store.h"
 #include "tools/cli/command/screen.h"
+#include "tools/client/robot/open_questions.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {
@@ -198,6 +199,10 @@ TopSample take_sample(const std::string& node, const RunView& run, const TopSamp
   }
   if (const auto store = vars::Store::attach(node, vars::Mode::ReadOnly)) {
     sample.forces = store->forces().size();
+    for (const RobotQuestion& one : open_questions(*store)) {
+      sample.questions.push_back(
+          printable(fmt::format("{} asks (question {}): {} {}", one.space, one.number, one.text, answers_text(one))));
+    }
   }
   alarms::AlarmJournal alarms(node);
   alarms.refresh();
@@ -231,6 +236,9 @@ std::vector<TopLine> top_page(const TopSample& sample, const TopLook& look, int 
                                report.overruns, report.faults, sample.forces, sample.stale, alarms),
                    if_any(report.faults + report.overruns + sample.forces + sample.stale + alarms, Style::Warn),
                    false});
+  for (const std::string& question : sample.questions) {
+    lines.push_back({question, Style::Accent, false});
+  }
   for (std::size_t i = 0; i < sample.troubles.size() && i < kTroubles; ++i) {
     lines.push_back({sample.troubles[i], Style::Bad, false});
   }

@@ -50,6 +50,7 @@ struct TopSample {
   };
   std::vector<Module> modules;
   std::vector<TopEvent> events;  // overruns, commands, output of modules; newest last
+  std::vector<std::string> questions;  // that robots ask their operators
   std::vector<std::string> troubles;
   alarms::AlarmCounts alarms;
   std::size_t forces = 0;

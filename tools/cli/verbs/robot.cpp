@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop robot: shows and teaches points, and jogs the robot.
+// indurop robot: shows and teaches points, jogs the robot, and answers the questions of its jobs.
 #include "tools/cli/robot/hand.h"
+#include "tools/cli/robot/questions.h"
 #include "tools/cli/robot/reload.h"
 #include "tools/cli/robot/teaching.h"
 #include "tools/cli/verbs/verbs.h"
@@ -13,6 +14,8 @@ struct RobotOptions {
   RobotChoice choice;
   robot::TeachOrder order;
   Hand hand{"", "base"};
+  RobotAnswer answer;
+  std::int64_t wait_ns = 0;
   std::function<int(Context&)> chosen;
 };
 
@@ -78,19 +81,46 @@ void declare_jog(base::Options& app, Context& context, RobotOptions& options) {
   add_remote_options(command, context);
 }
 
+void declare_question(base::Options& app, Context& context, RobotOptions& options) {
+  base::Options& command = app.command("question", "Show the question that the job asks the operator", [&options] {
+    options.chosen = [&options](Context& c) { return show_question(c, options.choice, options.wait_ns); };
+  });
+  add_time_option(command, "--timeout", options.wait_ns, "Wait for a question; fails if none is asked in this time");
+  add_choice(command, context, options);
+  add_remote_options(command, context);
+  add_format_option(command, context, {Format::Table, Format::Json, Format::Csv});
+}
+
+void declare_answer(base::Options& app, Context& context, RobotOptions& options) {
+  base::Options& command = app.command("answer", "Answer the question that the job asks", [&options] {
+    options.chosen = [&options](Context& c) { return answer_question(c, options.choice, options.answer); };
+  });
+  command
+      .add("answer", "ANSWER", options.answer.text,
+           "One of the answers or its number, or the number that was asked for")
+      .required();
+  command.add("--question", "NUMBER", options.answer.question,
+              "Answer only the question with this number (default: the one that is open)");
+  add_choice(command, context, options);
+  add_reason_option(command, context);
+  add_remote_options(command, context);
+}
+
 Action declare_robot(base::Options& app, Context& context) {
   auto options = std::make_shared<RobotOptions>();
   declare_points(app, context, *options);
   declare_teach(app, context, *options);
   declare_reload(app, context, *options);
   declare_jog(app, context, *options);
+  declare_question(app, context, *options);
+  declare_answer(app, context, *options);
   return [options](Context& c) { return options->chosen(c); };
 }
 
 }  // namespace
 
 const Verb kRobotVerb{
-    "robot", "Variables", "Show, teach and reload the points of a robot, and move it by hand",
+    "robot", "Variables", "Show, teach and reload the points of a robot, move it by hand, answer its jobs",
     "teach writes a point in the form that it has in the file (joint angles, or a pose in its frame), and keeps\n"
     "the comment after it; the file is replaced as a whole or not at all. The robot uses the new point after\n"
     "reload, or when its module starts again. jog is not a safety function: that requires an enabling switch\n"
@@ -101,7 +131,8 @@ const Verb kRobotVerb{
     "  indurop robot teach PICK\n"
     "  indurop robot teach CORNER --in pallet --file points.job\n"
     "  indurop robot reload\n"
-    "  indurop robot points\n",
+    "  indurop robot points\n"
+    "  indurop robot answer left\n",
     &declare_robot};
 
 }  // namespace indurop::tools
