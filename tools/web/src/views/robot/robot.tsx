@@ -11,6 +11,7 @@ import { address, change_query, place } from "../../ui/address";
 import { Fact, DataTable, Waiting } from "../../ui/parts";
 import { useRequest, useStore } from "../../ui/store";
 import { Jog } from "./jog";
+import { Question } from "./question";
 import type { Scene } from "./scene";
 import { scopes_of, useRobotState, type RobotState, type Scope } from "./state";
 
@@ -131,7 +132,7 @@ function in_urdf(values: number[], kinds: string[]): number[] {
 
 export function Robot() {
   const board = useBoard();
-  const may_jog = useMay("operate");
+  const may_operate = useMay("operate");
   const chosen = Number(useStore(place).query.get("r")) || 0;
   const { value, error } = useRequest(board ? `${board.board} ${board.layout}` : "", 0, () => fetch_robots(board!.board));
   const count = Math.max(value?.robots.length ?? 0, value?.scopes.length ?? 0);
@@ -179,7 +180,8 @@ export function Robot() {
         ) : (
           <p class="panel warn">{value.described ? "The arm's description (property urdf of its module) cannot be read, so only numbers are shown." : "This server does not provide the arm's description, so only numbers are shown."}</p>)}
         <div>
-        {may_jog && scope !== null && <Jog board={board.board} scope={scope} state={state} down={down} names={names} work_frames={robot?.frames ?? []} />}
+        {scope !== null && <Question board={board.board} scope={scope} down={down} may_answer={may_operate} />}
+        {may_operate && scope !== null && <Jog board={board.board} scope={scope} state={state} down={down} names={names} work_frames={robot?.frames ?? []} />}
         <section class="panel" aria-label="Robot in numbers">
           <h2>{down ? "Last values" : "Current values"}</h2>
           {state ? <Numbers state={state} names={names} down={down} /> : <Waiting />}
