@@ -236,7 +236,7 @@ void write_question() {
   question->cText = asked.text;
   question->nChoices = static_cast<uint16_t>(asked.count);
   for (std::size_t k = 0; k < asked.choices.size(); ++k) {
-    question->cChoice[k] = asked.choices[k];
+    question->choice[k].text = asked.choices[k];
   }
   question->dLower = asked.lower;
   question->dUpper = asked.upper;

@@ -30,10 +30,10 @@ Result<RobotQuestion, base::Problem> read_question(const vars::Store& store, con
   question.space = item.name.substr(0, item.name.size() - std::min(item.name.size(), kName.size() + 2));
   question.number = value["nNumber"].natural().value_or(0);
   question.text = value["cText"].text().value_or("");
-  const auto all = value["cChoice"].values();
+  const auto all = value["choice"].values();
   const std::size_t count = std::min<std::size_t>(all.size(), value["nChoices"].natural().value_or(0));
   for (const JsonValue& choice : all.first(count)) {
-    question.choices.push_back(choice.text().value_or(""));
+    question.choices.push_back(choice["text"].text().value_or(""));
   }
   question.lower = value["dLower"].number().value_or(0);
   question.upper = value["dUpper"].number().value_or(0);

@@ -22,8 +22,8 @@ interface Asked {
 
 function asked_of(value: any): Asked {
   return {
-    number: value.nNumber, text: value.cText, choices: value.cChoice.slice(0, value.nChoices), lower: value.dLower, upper: value.dUpper,
-    step: value.dStep, left_s: value.dLeft, acknowledged: value.nAcknowledge, reason: value.cReason,
+    number: value.nNumber, text: value.cText, choices: value.choice.slice(0, value.nChoices).map((one: { text: string }) => one.text),
+    lower: value.dLower, upper: value.dUpper, step: value.dStep, left_s: value.dLeft, acknowledged: value.nAcknowledge, reason: value.cReason,
   };
 }
 
