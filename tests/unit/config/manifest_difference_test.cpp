@@ -15,12 +15,13 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string difference(const std::string& before, const std::string& after) {
+std::string difference(const std::string& before, const std::string& after,
+                       ComparedElements compared = ComparedElements::All) {
   std::vector<base::Diagnostic> diagnostics;
   const auto a = read_document(before, "plant.xml", kPlantXml, diagnostics);
   const auto b = read_document(after, "plant.xml", kPlantXml, diagnostics);
   EXPECT_TRUE(a && b);
-  return a && b ? manifest_difference(*a, *b) : "?";
+  return a && b ? manifest_difference(*a, *b, compared) : "?";
 }
 
 std::string plant_with(const std::string& module, const std::string& more = "") {
@@ -65,6 +66,29 @@ TEST(ManifestDifference, Attributes_count_in_any_order) {
               HasSubstr("address was 'x' and is 'y'"));
   EXPECT_NE(difference(board("name=\"a\" address=\"x\""), board("name=\"a\"")), "");
   EXPECT_NE(difference(board("name=\"a\""), board("name=\"a\" address=\"x\"")), "");
+}
+
+TEST(ManifestDifference, What_a_schedule_changes_is_none_if_it_does_not_count) {
+  const auto other = [](const std::string& before, const std::string& after) {
+    return difference(before, after, ComparedElements::NotSchedule);
+  };
+  const std::string all =
+      "<offset>1ms</offset><deadline>1ms</deadline><wcet>1us</wcet><budget>off</budget><priority>3</priority>"
+      "<overrun>skip</overrun><after>belt</after><after>drum</after>";
+  EXPECT_EQ(other(plant_with(kPress), plant_with(kPress + all)), "");
+  EXPECT_NE(difference(plant_with(kPress), plant_with(kPress + all)), "");
+  EXPECT_EQ(other(plant_with(kPress + all), plant_with(kPress)), "");
+  EXPECT_EQ(other(plant_with(kPress + all), plant_with(kPress + all + "<core>1</core>")),
+            "board a, module press: <core> is new");
+  const std::string belt = "<name>belt</name><filename>belt.so</filename>";
+  const std::string two = kPress + "</module><module>" + belt;
+  EXPECT_EQ(other(plant_with(two), plant_with(kPress)), "") << "it ends";
+  EXPECT_EQ(other(plant_with(kPress), plant_with(two)), "") << "it is added";
+  EXPECT_EQ(other(plant_with(two), plant_with(belt + "</module><module>" + kPress)), "") << "another order";
+  EXPECT_EQ(other(plant_with(two), plant_with(belt + "<position>after-base</position></module><module>" + kPress)),
+            "board a, module belt: <position> is new");
+  EXPECT_EQ(other(plant_with(kPress), plant_with(kPress, "<domain>3</domain>")), "<domain> is new");
+  EXPECT_EQ(other(plant_with(kPress), plant_with(kPress, "<board name=\"b\"/>")), "board b is new");
 }
 
 // Whatever single text or element is changed, it is found, but for names of files.
