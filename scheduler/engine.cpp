@@ -25,6 +25,10 @@ std::int64_t warm_up_ns(std::int64_t basic_period_ns) noexcept {
   return std::max<std::int64_t>(kWarmUpNs / basic_period_ns, 3) * basic_period_ns;
 }
 
+std::int64_t epoch_of(const RunBlock& block) noexcept {
+  return block.epoch_ns.load(std::memory_order_relaxed);
+}
+
 }  // namespace
 
 struct Engine::Core {
@@ -158,13 +162,13 @@ void Engine::tick_loop(Core& core, std::uint64_t ticks) noexcept {
   }
   const std::int64_t basic = settings_.basic_period_ns;
   TickWait wait(kernel_, settings_.spin, basic);
-  for (std::int64_t t = epoch_ns() - warm_up_ns(basic); t < epoch_ns(); t += basic) {
+  for (std::int64_t t = epoch_of(block_) - warm_up_ns(basic); t < epoch_of(block_); t += basic) {
     wait.wait_until(rt::mono_time(t));
   }
   std::uint64_t missed = 0;  // ticks since the last one that was run
   LateTicks late_ticks(basic);
   for (std::uint64_t tick = 0; !stop_.load(std::memory_order_acquire); ++tick) {
-    const std::int64_t planned = epoch_ns() + static_cast<std::int64_t>(tick) * basic;
+    const std::int64_t planned = epoch_of(block_) + static_cast<std::int64_t>(tick) * basic;
     const std::int64_t begin = rt::to_ns(wait.wait_until(rt::mono_time(planned)));
     const std::int64_t late = begin - planned;
     const LateTicks::Start start = late_ticks.start(late);
@@ -206,7 +210,7 @@ void Engine::do_tick(Core& core, std::uint64_t tick, std::uint64_t lost) noexcep
   if (proposal_.is_there()) [[unlikely]] {
     lost = follow(core, tick, lost);
   }
-  const rt::MonoTime epoch = rt::mono_time(epoch_ns());
+  const rt::MonoTime epoch = rt::mono_time(epoch_of(block_));
   const auto since = std::chrono::nanoseconds(static_cast<std::int64_t>(tick) * settings_.basic_period_ns);
   if (core.primary) {
     block_.tick.store(tick + 1, std::memory_order_release);
@@ -249,8 +253,8 @@ void Engine::watchdog_loop() noexcept {
     watchdog_passes_.fetch_add(1, std::memory_order_acq_rel);
     // Half a basic period after a tick, where the wake-up delays no tick if they share a core.
     const std::int64_t grid = period >= settings_.basic_period_ns ? settings_.basic_period_ns : period;
-    const std::int64_t earliest = rt::to_ns(kernel_.now()) + period - epoch_ns();
-    kernel_.sleep_until(rt::mono_time(epoch_ns() + (earliest / grid) * grid + grid / 2));
+    const std::int64_t earliest = rt::to_ns(kernel_.now()) + period - epoch_of(block_);
+    kernel_.sleep_until(rt::mono_time(epoch_of(block_) + (earliest / grid) * grid + grid / 2));
     const rt::MonoTime now = kernel_.now();
     const bool stopping = stop_.load(std::memory_order_acquire);
     for (const auto& watched : watched_) {

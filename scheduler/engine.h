@@ -105,6 +105,10 @@ class Engine {
   // the end of its runs (a process that handles events, or is woken by a signal). Lives until the schedule changes.
   [[nodiscard]] const Band* band_of(std::uint32_t module) const noexcept { return schedule_->find_band(module); }
 
+  // Changes with every run of one of these modules, and is odd from a release until the runs of its band are over,
+  // whichever schedule counts. Real-time safe, any thread.
+  [[nodiscard]] std::uint64_t activity_of(std::span<const std::uint32_t> modules) const noexcept;
+
   // Runs one tick with everything on the calling thread and no threads: for tests with a clock of their own.
   void step(std::uint64_t tick, rt::MonoTime epoch) noexcept;
 
@@ -123,7 +127,6 @@ class Engine {
   void note_change() noexcept;
   bool follow_retirement() noexcept;
   void watchdog_loop() noexcept;
-  [[nodiscard]] std::int64_t epoch_ns() const noexcept { return block_.epoch_ns.load(std::memory_order_relaxed); }
 
   RunBlock& block_;
   EngineSettings settings_;
@@ -139,7 +142,8 @@ class Engine {
   ChangeProposal proposal_;         // its tick
   std::uint64_t changed_at_ = 0;
   Retirement retirement_;                                  // of the schedule before, or of one that was dropped
-  std::array<std::atomic<const Schedule*>, 2> watched_{};  // by the watchdog
+  std::array<std::atomic<const Schedule*>, 2> watched_{};  // by the watchdog, and by activity_of()
+  mutable std::atomic<int> readers_{0};                    // in activity_of()
   std::atomic<std::uint64_t> watchdog_passes_{0};
   std::atomic<bool> stop_{false};
   std::atomic<bool> stop_watchdog_{false};

@@ -123,8 +123,8 @@ void Engine::note_change() noexcept {
   changed_at_ = proposal_.tick();
   proposal_.take_back();
   retirement_.begin(std::exchange(schedule_, std::move(next_)));
-  watched_[0].store(schedule_.get(), std::memory_order_release);
-  watched_[1].store(retirement_.schedule(), std::memory_order_release);
+  watched_[0].store(schedule_.get(), std::memory_order_seq_cst);
+  watched_[1].store(retirement_.schedule(), std::memory_order_seq_cst);
   schedule_->publish_priorities();
   for (const auto& state : states_) {
     if (const Band* band = schedule_->find_band(state->task.index); band != nullptr) {
@@ -142,19 +142,40 @@ void Engine::drop_change() noexcept {
 // Returns true when it is over.
 bool Engine::follow_retirement() noexcept {
   if (!retirement_.is_closed() && retirement_.is_at_rest()) {
-    watched_[1].store(nullptr, std::memory_order_release);
+    watched_[1].store(nullptr, std::memory_order_seq_cst);
     for (const auto& state : states_) {
       state->leaving.store(nullptr, std::memory_order_seq_cst);
     }
     retirement_.close(*schedule_, watchdog_passes_.load(std::memory_order_acquire));
   }
-  const bool over =
-      retirement_.is_closed() && retirement_.is_over(*schedule_, watchdog_passes_.load(std::memory_order_acquire),
-                                                     watchdog_ != nullptr && !finished());
+  const bool over = retirement_.is_closed() &&
+                    retirement_.is_over(*schedule_, watchdog_passes_.load(std::memory_order_acquire),
+                                        watchdog_ != nullptr && !finished()) &&
+                    readers_.load(std::memory_order_seq_cst) == 0;
   if (over) {
     retirement_.end();
   }
   return over;
+}
+
+// Both schedules count: between the tick of a change and the moment it is noted, the runs are those of the next one.
+std::uint64_t Engine::activity_of(std::span<const std::uint32_t> modules) const noexcept {
+  readers_.fetch_add(1, std::memory_order_seq_cst);
+  const Schedule* const first = watched_[0].load(std::memory_order_seq_cst);
+  const Schedule* const second = watched_[1].load(std::memory_order_seq_cst);
+  bool busy = watched_[0].load(std::memory_order_seq_cst) != first;  // they were replaced at this moment
+  std::uint64_t runs = 0;
+  for (const Schedule* const schedule : {first, second}) {
+    for (const std::uint32_t module : modules) {
+      if (const Band* const band = schedule == nullptr ? nullptr : schedule->find_band(module); band != nullptr) {
+        const std::uint64_t activity = band->activity();
+        busy = busy || activity % 2 != 0;
+        runs += activity / 2;
+      }
+    }
+  }
+  readers_.fetch_sub(1, std::memory_order_seq_cst);
+  return 2 * runs + (busy ? 1 : 0);
 }
 
 Engine::Change Engine::follow_change() noexcept {

@@ -22,6 +22,8 @@ void Arrivals::begin(const Rechecked& next, const SchedulePlan& plan) {
   all_.clear();
   errors_.clear();
   failure_.clear();
+  needs_restart_ = true;
+  refused_.clear();
   loaded_ = 0;
   started_ = 0;
   for (const std::uint32_t place : plan.added) {
@@ -55,6 +57,10 @@ bool Arrivals::is_loaded() {
     Candidate candidate = loading_->take();
     loading_.reset();
     errors_.insert(errors_.end(), candidate.errors.begin(), candidate.errors.end());
+    if (!candidate.errors.empty()) {
+      needs_restart_ = needs_restart_ && candidate.needs_restart;
+      refused_ = next_->config.modules[all_[loaded_].place].name;
+    }
     all_[loaded_++].library = std::move(candidate.library);
     load_next();
   }
@@ -122,6 +128,7 @@ bool Arrivals::is_started(rt::MonoTime now) {
     if (!parts_.phases.conclude(std::move(call_))) {
       record.state.store(ModuleState::Stopped);  // it is in no schedule
       failure_ = fmt::format("module {}: {}", record.name, record.last_fault);
+      refused_ = record.name;
       return false;
     }
     ++started_;
@@ -148,6 +155,11 @@ void Arrivals::enter() {
   }
 }
 
+void Arrivals::settle() {
+  all_.clear();
+  started_ = 0;
+}
+
 std::vector<std::uint32_t> Arrivals::drop() {
   std::vector<std::uint32_t> started;
   for (std::size_t i = 0; i < started_; ++i) {
@@ -159,8 +171,7 @@ std::vector<std::uint32_t> Arrivals::drop() {
       parts_.run.modules()[all_[i].index].state.store(ModuleState::Stopped);
     }
   }
-  all_.clear();
-  started_ = 0;
+  settle();
   return started;
 }
 

@@ -41,14 +41,20 @@ class Arrivals {
   // Continues. Returns true when all are loaded, or errors() says what is wrong.
   bool is_loaded();
   [[nodiscard]] const std::vector<std::string>& errors() const noexcept { return errors_; }
+  // Returns true if a node that is started with them has none of the errors.
+  [[nodiscard]] bool needs_restart() const noexcept { return needs_restart_; }
   // Gives those that are new a place, and completes the plan's indices. Returns false if there is no room: nothing has
   // changed.
   bool place(SchedulePlan& plan, const scheduler::RunBlockSetup& setup, const std::vector<scheduler::Task>& tasks);
   // Calls start(), one after the other. Returns true when that is over, or failure() says why it is not.
   bool is_started(rt::MonoTime now);
   [[nodiscard]] const std::string& failure() const noexcept { return failure_; }
+  // Name of the module that cannot be loaded or started; empty: there is none.
+  [[nodiscard]] const std::string& refused() const noexcept { return refused_; }
   // The schedule that has them may begin.
   void enter();
+  // It has begun.
+  void settle();
   // They do not come. Returns those that have been started and have to be stopped.
   std::vector<std::uint32_t> drop();
   // The node ends: waits for a call in progress.
@@ -69,6 +75,8 @@ class Arrivals {
   const Rechecked* next_ = nullptr;
   std::vector<One> all_;
   std::vector<std::string> errors_;
+  bool needs_restart_ = true;
+  std::string refused_;
   std::size_t loaded_ = 0;
   std::size_t started_ = 0;
   std::string failure_;

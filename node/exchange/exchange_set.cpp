@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/rt/copy_text.h"
+#include "node/exchange/schedule_change.h"
 
 namespace indurop::node {
 namespace {
@@ -36,6 +37,12 @@ void ExchangeSet::set_state(State state) {
   for (const std::uint32_t module : order_) {
     report_.modules.push_back(all_.at(module).report());
   }
+  const ScheduleChange& schedule = *context_.schedule;
+  const MacroGrid grid = schedule.common_with_next();
+  report_.grid_ticks = grid.ticks;
+  report_.grid_begin = grid.begin;
+  report_.schedule = schedule.held().on ? schedule.report().modules : std::vector<operate::ScheduleReport::Module>();
+  report_.schedule_tick = schedule.held().counts ? context_.parts.run.schedule_tick.load() : 0;
   (void)operate::write_set_report(context_.parts.node, report_);
 }
 
@@ -99,7 +106,7 @@ std::string ExchangeSet::accept(const std::string& single) {
 }
 
 std::string ExchangeSet::begin(const SetRequest& request) {
-  if (is_under_way()) {
+  if (is_under_way() || !context_.schedule->is_at_rest()) {
     return "other modules are being exchanged";
   }
   report_ = {};
@@ -125,6 +132,9 @@ std::string ExchangeSet::begin(const SetRequest& request) {
   compares_ = request.act == SetRequest::Act::Compare;
   before_ = run.deployment;
   after_ = request.deployment;
+  if (!request.config.empty()) {
+    context_.schedule->hold(request.config, compares_);
+  }
   set_state(State::Preparing);
   for (const auto& [index, one] : begins) {
     order_.push_back(index);
@@ -144,6 +154,7 @@ std::string ExchangeSet::exchange(std::uint64_t tick) {
       exchange.enter(tick);
     }
   }
+  context_.schedule->enter(tick);
   set_state(State::Waiting);
   if (const std::uint64_t next = context_.parts.run.tick.load(); next >= tick) {
     fail(fmt::format("it missed the tick of the exchange, {}: it was in tick {} when the order came", tick, next));
@@ -180,6 +191,7 @@ void ExchangeSet::fail(const std::string& why) {
   for (auto& [module, exchange] : all_) {
     exchange.go_back();
   }
+  context_.schedule->go_back();
   set_state(State::Leaving);
 }
 
@@ -219,6 +231,15 @@ void ExchangeSet::conclude_preparation() {
       return fail(fmt::format("module {}: {}", one.module, one.errors.empty() ? one.text : one.errors.front()));
     }
   }
+  const ScheduleChange& schedule = *context_.schedule;
+  if (!schedule.is_prepared()) {
+    return;
+  }
+  if (!schedule.held().failure.empty()) {
+    report_.needs_restart = schedule.held().needs_restart;
+    report_.refused = schedule.held().refused;
+    return fail(schedule.held().failure);
+  }
   set_state(compares_ ? State::Compared : State::Ready);
   if (compares_) {
     forget();
@@ -226,7 +247,11 @@ void ExchangeSet::conclude_preparation() {
 }
 
 void ExchangeSet::follow_exchange() {
-  bool all_new = true;
+  const ScheduleChange::Held& schedule = context_.schedule->held();
+  if (!schedule.failure.empty()) {
+    return fail(schedule.failure);
+  }
+  bool all_new = schedule.counts || !schedule.changes;
   for (const auto& [module, exchange] : all_) {
     const bool unchanged = exchange.is_over() && exchange.result() == CommandResult::Unchanged;
     if (exchange.is_over() && !unchanged && !exchange.runs_new()) {
@@ -242,8 +267,12 @@ void ExchangeSet::follow_exchange() {
 
 // A version that failed while it was decided to keep it has returned all the same.
 void ExchangeSet::conclude() {
-  bool any_new = false;
-  bool any_old = false;
+  const ScheduleChange& schedule = *context_.schedule;
+  if (!schedule.is_at_rest()) {
+    return;
+  }
+  bool any_new = schedule.held().counts;
+  bool any_old = schedule.held().changes && !schedule.held().counts;
   for (const auto& [module, exchange] : all_) {
     if (!exchange.is_over()) {
       return;
@@ -264,6 +293,7 @@ void ExchangeSet::conclude() {
 }
 
 void ExchangeSet::forget() {
+  context_.schedule->release();
   all_.clear();
   order_.clear();
   files_.clear();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several modules that are exchanged at one tick, for a deployment: all of them or none. They are prepared first; then
-// the agent says the tick, and, after it, which of the two deployments is to run. If a new version fails meanwhile, all
-// previous ones run again. Called by the thread that supervises the node.
+// Several modules that are exchanged at one tick, for a deployment, and the schedule with them: all or nothing. They
+// are prepared first; then the agent says the tick, and, after it, which of the two deployments is to run. If a new
+// version fails meanwhile, all previous ones run again. Called by the thread that supervises the node.
 
 #pragma once
 

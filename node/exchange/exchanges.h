@@ -23,6 +23,8 @@ class Exchanges {
   Exchanges& operator=(const Exchanges&) = delete;
   ~Exchanges() = default;
 
+  // Connects them with changes of the schedule, before any command is accepted. `schedule` is borrowed.
+  void connect(ScheduleChange& schedule) noexcept { context_.schedule = &schedule; }
   // Accepts commands and continues the exchanges in progress.
   void poll(rt::MonoTime now);
   // Called when the schedule has ended.

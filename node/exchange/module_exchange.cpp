@@ -60,7 +60,7 @@ void ModuleExchange::begin_back(scheduler::Exchange::Reason reason) {
   report_.plan = carry_.plan;
   report_.from = running().digest();
   report_.to = other_.digest();
-  watch(next_macro_period(context_.parts.run));
+  watch(next_macro_period(context_));
 }
 
 void ModuleExchange::go_on(rt::MonoTime now) {
@@ -182,7 +182,7 @@ void ModuleExchange::started() {
     if (held_) {
       step_ = Step::Ready;
     } else {
-      watch(next_macro_period(context_.parts.run));
+      watch(next_macro_period(context_));
     }
   } else if (was_called || held_) {
     abort(kRunsNoMore);

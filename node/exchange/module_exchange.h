@@ -36,6 +36,8 @@ struct ExchangeParts {
   bool simulated = false;  // virtual time does not pass while a version is prepared
 };
 
+class ScheduleChange;
+
 // What exchanges of several modules share.
 struct ExchangeContext {
   ExchangeParts parts;
@@ -44,6 +46,7 @@ struct ExchangeContext {
   std::vector<std::filesystem::path> files;         // by module: that of the configuration, or of a later deployment
   std::map<std::uint32_t, ModuleLibrary> previous;  // by module; started and not stopped
   Retired retired;
+  ScheduleChange* schedule = nullptr;  // connected before any command is accepted
 };
 
 class ModuleExchange {
@@ -143,9 +146,8 @@ class ModuleExchange {
   scheduler::Exchange::Reason reason_ = scheduler::Exchange::Reason::Command;  // of `back_`
 };
 
-// Ticks of a macro period; of a longer one than a second 1, because it is not waited for.
-std::uint64_t macro_period_ticks(const scheduler::RunBlock& run) noexcept;
-// First tick of the next macro period; of a longer one than a second the next tick, because it is not waited for.
-std::uint64_t next_macro_period(const scheduler::RunBlock& run) noexcept;
+// First tick of the next macro period, in which modules that belong together meet; of a longer one than a second the
+// next tick, because it is not waited for.
+std::uint64_t next_macro_period(const ExchangeContext& context);
 
 }  // namespace indurop::node

@@ -7,6 +7,7 @@
 #include "core/rt/clock.h"
 #include "core/rt/copy_text.h"
 #include "node/exchange/module_exchange.h"
+#include "node/exchange/schedule_change.h"
 #include "store/operate/journal.h"
 #include "store/runtime/host.h"
 
@@ -19,7 +20,6 @@ using scheduler::ModuleState;
 using scheduler::VersionState;
 
 constexpr std::chrono::seconds kNoGapFound{5};  // in addition to two periods
-constexpr std::int64_t kLongestGridNs = rt::kNanosPerSecond;
 constexpr std::chrono::milliseconds kReplacedPoll{1};
 constexpr int kCopiesInOneGo = 20;
 constexpr std::size_t kShownDigits = 12;
@@ -51,15 +51,8 @@ std::string text_of(Exchange::Reason reason, const scheduler::ModuleRecord& modu
 
 }  // namespace
 
-std::uint64_t macro_period_ticks(const scheduler::RunBlock& run) noexcept {
-  return run.macro_period_ns > kLongestGridNs ? 1 : std::max<std::uint64_t>(run.slot_count, 1);
-}
-
-// Modules that belong together meet there.
-std::uint64_t next_macro_period(const scheduler::RunBlock& run) noexcept {
-  const std::uint64_t next = run.tick.load();
-  const std::uint64_t step = macro_period_ticks(run);
-  return (next + step - 1) / step * step;
+std::uint64_t next_macro_period(const ExchangeContext& context) {
+  return next_in(context.schedule->grid(), context.parts.run.tick.load());
 }
 
 void ModuleExchange::watch(std::uint64_t tick) {

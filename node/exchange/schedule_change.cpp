@@ -39,7 +39,7 @@ config::Config config_of_schedule(const config::Config& running, const scheduler
 }  // namespace
 
 void ScheduleChange::poll(rt::MonoTime now, const std::string& others) {
-  if (scheduler::waiting_command(record(0)) == ModuleCommand::Schedule && step_ == Step::Idle) {
+  if (scheduler::waiting_command(record(0)) == ModuleCommand::Schedule && (step_ == Step::Idle || held_.on)) {
     accept(others);
   }
   while (parts_.options.simulation.on && step_ == Step::Checking && !is_checked_.load()) {
@@ -49,26 +49,29 @@ void ScheduleChange::poll(rt::MonoTime now, const std::string& others) {
     case Step::Checking:
       return is_checked_.load(std::memory_order_acquire) ? checked() : void();
     case Step::Loading:
-      return arrivals_.is_loaded() ? loaded() : void();
+      return arrivals_.is_loaded() && !is_given_up() ? loaded() : void();
     case Step::Starting:
       return start(now, others);
     case Step::Building:
-      return parts_.engine.follow_change() == Engine::Change::Prepared ? begin_waiting() : void();
+      return parts_.engine.follow_change() == Engine::Change::Prepared && !is_given_up() ? begin_waiting() : void();
     case Step::Waiting:
     case Step::Leaving:
       return follow();
     case Step::Idle:
+    case Step::Ready:
       return;
   }
 }
 
 void ScheduleChange::accept(const std::string& others) {
-  report_ = {};
   const auto request = operate::take_schedule_request(parts_.options.node);
+  if (!parts_.options.board.empty()) {
+    respond({}, CommandResult::Refused, "it is a board of a plant: `indurop deploy` takes its manifest to all boards");
+    return;
+  }
+  report_ = {};
   if (!request) {
     answer(CommandResult::Refused, "the request cannot be read; repeat the command");
-  } else if (!parts_.options.board.empty()) {
-    answer(CommandResult::Refused, "it is a board of a plant: `indurop deploy` takes its manifest to all boards");
   } else if (!others.empty()) {
     answer(CommandResult::Refused, others + "; repeat the command when that is over");
   } else if (request->back && !previous_) {
@@ -83,7 +86,8 @@ void ScheduleChange::check(const operate::ScheduleRequest& request) {
   is_checked_.store(false);
   step_ = Step::Checking;
   auto thread = rt::Thread::start({"irp-schedule", 0, -1, kCheckStack}, [this] {
-    next_ = request_.back ? recheck(parts_.options, *previous_) : recheck(parts_.options, request_.config);
+    const bool from_memory = request_.back && !held_.on;
+    next_ = from_memory ? recheck(parts_.options, *previous_) : recheck(parts_.options, request_.config);
     is_checked_.store(true, std::memory_order_release);
   });
   if (!thread) {
@@ -94,21 +98,30 @@ void ScheduleChange::check(const operate::ScheduleRequest& request) {
 
 void ScheduleChange::checked() {
   thread_.join();
+  if (is_given_up()) {
+    return;
+  }
   for (const base::Diagnostic& diagnostic : next_.diagnostics) {
     if (diagnostic.severity != base::Diagnostic::Severity::Note) {
       report_.messages.push_back(base::to_string(diagnostic));
     }
   }
   if (!next_.ok) {
-    return refuse("the configuration has errors");
+    return refuse(held_.on && !report_.messages.empty() ? report_.messages.front() : "the configuration has errors");
   }
   make_plan();
+  held_.changes = held_.on && plan_.changes;
   report_.restarts = plan_.restarts;
-  for (const ModuleFate& fate : plan_.modules) {
+  for (const ModuleFate& fate : request_.back&& held_.on ? std::vector<ModuleFate>() : plan_.modules) {
     report_.modules.push_back({fate.module, to_text(fate.kind), fate.text});
   }
   if (!report_.restarts.empty()) {
-    return refuse("the node has to be restarted with this configuration");
+    held_.needs_restart = true;
+    return refuse(held_.on ? report_.restarts.front() : "the node has to be restarted with this configuration");
+  }
+  if (held_.on && !held_.changes) {
+    step_ = Step::Idle;
+    return;
   }
   arrivals_.begin(next_, plan_);
   step_ = Step::Loading;
@@ -116,17 +129,10 @@ void ScheduleChange::checked() {
 
 void ScheduleChange::make_plan() {
   plan_ = plan_schedule(parts_.config, parts_.run, next_.config, next_.check);
-  for (std::size_t i = 0; i < plan_.indices.size(); ++i) {
-    const std::uint32_t index = plan_.indices[i];
-    const config::Module& module = next_.config.modules[i];
-    if (index == SchedulePlan::kNoModule || module.type != ModuleType::Thread || record(index).ended) {
-      continue;
-    }
-    const auto digest = keys::digest_of_file(module.file);
-    if (!digest || digest->digest != parts_.libraries[index].digest()) {
-      plan_.restarts.push_back(fmt::format("module {} runs another version than {}; `indurop reload {}` exchanges it",
-                                           module.name, module.file.string(), module.name));
-    }
+  if (held_.on) {
+    compare_links();
+  } else {
+    compare_files();
   }
   setup_ = make_run_setup(next_.config, next_.check, parts_.options.node, parts_.placement);
   tasks_ = make_tasks(next_.config, next_.check, setup_, parts_.placement.core);
@@ -139,12 +145,38 @@ void ScheduleChange::make_plan() {
   if (parts_.options.simulation.on) {
     set_work_times(tasks_, next_.config, parts_.options.simulation.measured);
   }
+  if (!plan_.restarts.empty()) {
+    return;  // the basic period may be another one
+  }
+  const std::int64_t basic = parts_.run.basic_period_ns;
+  const bool in_plant = !parts_.options.board.empty() && !parts_.options.simulation.on;
+  next_grid_ = following_grid(
+      grid_, static_cast<std::uint64_t>(setup_.macro_period_ns / basic), basic,
+      in_plant ? std::optional(parts_.run.epoch_ns.load() + rt::wall_ns() - rt::now_ns()) : std::nullopt);
+  delay_periods(tasks_, setup_, static_cast<std::int64_t>(next_grid_.begin) * basic);
+}
+
+// The code of modules stays as it is.
+void ScheduleChange::compare_files() {
+  for (std::size_t i = 0; i < plan_.indices.size(); ++i) {
+    const std::uint32_t index = plan_.indices[i];
+    const config::Module& module = next_.config.modules[i];
+    if (index == SchedulePlan::kNoModule || module.type != ModuleType::Thread || record(index).ended) {
+      continue;
+    }
+    const auto digest = keys::digest_of_file(module.file);
+    if (!digest || digest->digest != parts_.libraries[index].digest()) {
+      plan_.restarts.push_back(fmt::format("module {} runs another version than {}; `indurop reload {}` exchanges it",
+                                           module.name, module.file.string(), module.name));
+    }
+  }
 }
 
 void ScheduleChange::loaded() {
   if (!arrivals_.errors().empty()) {
     report_.messages.insert(report_.messages.end(), arrivals_.errors().begin(), arrivals_.errors().end());
-    return refuse("a module that is added cannot run here");
+    held_.needs_restart = arrivals_.needs_restart();
+    return refuse(held_.on ? arrivals_.errors().front() : "a module that is added cannot run here");
   }
   if (request_.dry_run) {
     (void)arrivals_.drop();
@@ -152,6 +184,7 @@ void ScheduleChange::loaded() {
     return answer(CommandResult::Done, "would take over, " + summary());
   }
   if (!arrivals_.place(plan_, setup_, tasks_)) {
+    held_.needs_restart = true;
     return refuse("there is no room for the properties of a module that is added; restart the node");
   }
   renumber(tasks_, plan_.indices);
@@ -163,14 +196,14 @@ void ScheduleChange::start(rt::MonoTime now, const std::string& others) {
   const bool started = arrivals_.is_started(now);
   if (!arrivals_.failure().empty()) {
     fail(arrivals_.failure());
-  } else if (started) {
+  } else if (started && !is_given_up()) {
     prepare(others);
   }
 }
 
 void ScheduleChange::prepare(const std::string& others) {
   if (!others.empty()) {
-    return fail(others);
+    return held_.on ? void() : fail(others);  // a deployment waits for it
   }
   if (const Status prepared = parts_.engine.prepare_change(tasks_); !prepared) {
     return fail("its threads cannot be started: " + describe(prepared.error()));
@@ -179,9 +212,13 @@ void ScheduleChange::prepare(const std::string& others) {
 }
 
 void ScheduleChange::begin_waiting() {
+  if (waits_for_tick()) {
+    step_ = Step::Ready;
+    return;
+  }
   arrivals_.enter();
   waits_for_any_tick_ = false;
-  if (!propose(macro_period_ticks(parts_.run))) {
+  if (!propose(grid().ticks)) {
     return fail("no macro period began in time");
   }
   step_ = Step::Waiting;
@@ -192,7 +229,7 @@ bool ScheduleChange::propose(std::uint64_t step) {
   const scheduler::RunBlock& run = parts_.run;
   const auto wait = static_cast<std::uint64_t>(kLongestWaitNs / run.basic_period_ns);
   for (int i = 0; i < kProposals; ++i) {
-    const std::uint64_t tick = next_macro_period(run) + static_cast<std::uint64_t>(i) * macro_period_ticks(run);
+    const std::uint64_t tick = next_in(grid(), run.tick.load()) + static_cast<std::uint64_t>(i) * grid().ticks;
     if (parts_.engine.change_at({tick, step, tick + wait})) {
       return true;
     }
@@ -203,6 +240,9 @@ bool ScheduleChange::propose(std::uint64_t step) {
 void ScheduleChange::follow() {
   const Engine::Change change = parts_.engine.follow_change();
   if (step_ == Step::Waiting && change == Engine::Change::Prepared) {
+    if (waits_for_tick()) {
+      return fail("it missed the tick of the change: a run of a module was in progress; repeat it, or use --restart");
+    }
     if (!std::exchange(waits_for_any_tick_, true) && propose(1)) {
       return;
     }
@@ -217,6 +257,7 @@ void ScheduleChange::follow() {
     ended_.insert(ended_.end(), plan_.ended.begin(), plan_.ended.end());
     plan_.ended.clear();
     step_ = Step::Idle;
+    follow_held();
   }
 }
 
@@ -224,6 +265,9 @@ void ScheduleChange::follow() {
 void ScheduleChange::settle() {
   scheduler::RunBlock& run = parts_.run;
   previous_ = config_of_schedule(parts_.config, run);
+  grid_ = next_grid_;
+  arrivals_.settle();
+  held_.counts = !request_.back;
   for (std::size_t i = 0; i < plan_.indices.size(); ++i) {
     settle_module(i, plan_.indices[i]);
   }
@@ -299,14 +343,23 @@ void ScheduleChange::refuse(const std::string& why) {
 }
 
 void ScheduleChange::answer(CommandResult result, const std::string& text) {
-  report_.text = text;
-  report_.schedule = parts_.run.schedule.load();
-  report_.tick = parts_.run.schedule_tick.load();
-  (void)operate::write_schedule_report(parts_.options.node, report_);
-  scheduler::answer_command(record(0), result);
+  if (held_.on) {
+    held_.failure = result == CommandResult::Done ? "" : text;
+    held_.refused = held_.failure.empty() ? "" : arrivals_.refused();
+  } else {
+    respond(report_, result, text);
+  }
   if (result != CommandResult::Done) {
     parts_.console.warning("the schedule has not changed: {}", text);
   }
+}
+
+void ScheduleChange::respond(operate::ScheduleReport report, CommandResult result, const std::string& text) const {
+  report.text = text;
+  report.schedule = parts_.run.schedule.load();
+  report.tick = parts_.run.schedule_tick.load();
+  (void)operate::write_schedule_report(parts_.options.node, report);
+  scheduler::answer_command(record(0), result);
 }
 
 std::vector<std::uint32_t> ScheduleChange::take_ended() {
@@ -318,11 +371,11 @@ void ScheduleChange::end() {
   if (step_ == Step::Checking) {
     thread_.join();
   }
-  if (step_ == Step::Loading || step_ == Step::Starting) {
+  if (step_ >= Step::Loading && step_ <= Step::Ready) {
     arrivals_.end();
   }
   step_ = Step::Idle;
-  if (unanswered) {
+  if (unanswered && !held_.on) {
     answer(CommandResult::Ending, "the node ends");
   }
 }

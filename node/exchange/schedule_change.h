@@ -13,6 +13,7 @@
 
 #include "core/rt/thread.h"
 #include "node/exchange/arrivals.h"
+#include "node/exchange/macro_grid.h"
 #include "node/exchange/schedule_plan.h"
 #include "node/run/checked.h"
 #include "node/run/console.h"
@@ -34,9 +35,11 @@ class ScheduleChange {
     scheduler::Engine& engine;
     Console& console;
     Placement placement;
+    const BoardLinks& links;
   };
 
-  ScheduleChange(const Parts& parts, const Arrivals::Parts& arrivals) : parts_(parts), arrivals_(arrivals) {}
+  ScheduleChange(const Parts& parts, const Arrivals::Parts& arrivals)
+      : parts_(parts), arrivals_(arrivals), grid_{parts.run.slot_count, 0} {}
   ScheduleChange(const ScheduleChange&) = delete;
   ScheduleChange& operator=(const ScheduleChange&) = delete;
   ~ScheduleChange() = default;
@@ -50,6 +53,34 @@ class ScheduleChange {
   std::vector<std::uint32_t> take_ended();
   // Called when the schedule has ended.
   void end();
+  // The ticks in which modules are exchanged, too.
+  [[nodiscard]] MacroGrid grid() const;
+
+  // For a deployment, which changes all boards at one tick: that schedule is prepared, and waits for the tick. No
+  // answers are given. Ends with release().
+  void hold(const std::string& manifest, bool compares);
+  void release();
+  struct Held {
+    bool on = false;
+    bool changes = false;   // another schedule follows: both differ
+    bool counts = false;    // it has taken over
+    bool given_up = false;  // the schedule before is to count
+    std::string failure;    // why that one counts; empty: nothing has gone wrong
+    bool needs_restart = false;
+    std::string refused;  // name of an added module that cannot be loaded or started
+    std::string before;   // manifest of the schedule before
+  };
+  [[nodiscard]] const Held& held() const noexcept { return held_; }
+  // Returns true when it is ready, was only compared, changes nothing, or has failed.
+  [[nodiscard]] bool is_prepared() const noexcept;
+  [[nodiscard]] const operate::ScheduleReport& report() const noexcept { return report_; }
+  // The ticks in which macro periods of both schedules begin.
+  [[nodiscard]] MacroGrid common_with_next() const;
+  // It takes over in this tick, or fails.
+  void enter(std::uint64_t tick);
+  // The schedule before is to count. Returns at once; it may have to take over again.
+  void go_back();
+  [[nodiscard]] bool is_at_rest() const noexcept { return step_ == Step::Idle; }
 
  private:
   enum class Step {
@@ -58,6 +89,7 @@ class ScheduleChange {
     Loading,   // modules that are added
     Starting,  // their start() runs
     Building,  // its threads start
+    Ready,     // held: waits for its tick to be named
     Waiting,   // for its first tick
     Leaving,   // runs of the schedule before may be in progress
   };
@@ -66,11 +98,16 @@ class ScheduleChange {
   void check(const operate::ScheduleRequest& request);
   void checked();
   void make_plan();
+  void compare_files();
+  void compare_links();
   void loaded();
   void start(rt::MonoTime now, const std::string& others);
   void prepare(const std::string& others);
   void begin_waiting();
   bool propose(std::uint64_t step);
+  [[nodiscard]] bool waits_for_tick() const noexcept { return held_.on && !request_.back; }
+  bool is_given_up();
+  void follow_held();
   void follow();
   void settle();
   void settle_module(std::size_t place, std::uint32_t index);
@@ -78,6 +115,7 @@ class ScheduleChange {
   void fail(const std::string& why);
   void refuse(const std::string& why);
   void answer(scheduler::CommandResult result, const std::string& text);
+  void respond(operate::ScheduleReport report, scheduler::CommandResult result, const std::string& text) const;
   [[nodiscard]] std::string summary() const;
   [[nodiscard]] scheduler::ModuleRecord& record(std::uint32_t module) const noexcept {
     return parts_.run.modules()[module];
@@ -97,6 +135,9 @@ class ScheduleChange {
   bool waits_for_any_tick_ = false;         // in each macro period that began a run was in progress
   std::vector<std::uint32_t> ended_;        // to be stopped
   std::optional<config::Config> previous_;  // of the schedule before
+  MacroGrid grid_;                          // of macro periods
+  MacroGrid next_grid_;                     // of those of `next_`
+  Held held_;
 };
 
 }  // namespace indurop::node

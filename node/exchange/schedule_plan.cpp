@@ -48,6 +48,7 @@ Config without_modules(Config config) {
   config.spin_place = {};
   if (config.cores) {
     config.cores->place = {};
+    config.cores->times.clear();  // modules are on their cores already
   }
   config.external.type_places.clear();
   for (config::VariableRule& rule : config.external.variables) {
@@ -130,6 +131,9 @@ class ScheduleComparison {
     }
     compare_rest(next);
     compare_grid(check);
+    plan_.changes = !std::is_sorted(plan_.indices.begin(), plan_.indices.end()) ||
+                    std::any_of(plan_.modules.begin(), plan_.modules.end(),
+                                [](const ModuleFate& fate) { return fate.kind != ModuleFate::Kind::Kept; });
     return std::move(plan_);
   }
 

@@ -33,6 +33,7 @@ struct SchedulePlan {
   std::vector<std::uint32_t> added;    // places in the other configuration
   std::vector<std::uint32_t> ended;    // indices in the run block
   std::vector<std::string> restarts;   // why only a restart leads there; empty: it does not need one
+  bool changes = false;                // the schedule becomes another one
 };
 
 // `running`: by index in the run block, as the modules run now; those that have ended are marked there. `next` was

@@ -48,7 +48,7 @@ bool ModuleCommands::answer(const Work& work, CommandResult result) {
 }
 
 void ModuleCommands::poll_schedule(rt::MonoTime now) {
-  const std::string exchanged = exchanges_.activity();
+  const std::string exchanged = schedule_.held().on ? "" : exchanges_.activity();
   schedule_.poll(now, works_.empty()
                           ? exchanged
                           : fmt::format("module {} is being started or stopped", record(works_.front().module).name));

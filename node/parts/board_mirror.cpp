@@ -73,10 +73,11 @@ Result<void, Ending> BoardMirror::start_simulated(Simulation& simulation) {
 }
 
 void BoardMirror::announce() noexcept {
-  if (running_) {
+  const std::uint64_t number = prepared_.run().schedule.load();
+  if (running_ && std::exchange(announced_, number) != number) {
     running_->announce(rt::mono_time(prepared_.run().epoch_ns),
                        std::chrono::nanoseconds{prepared_.setup.basic_period_ns},
-                       std::chrono::nanoseconds{prepared_.setup.macro_period_ns});
+                       std::chrono::nanoseconds{prepared_.run().macro_period_ns.load()});
   }
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "node/run/checked.h"
@@ -21,7 +22,7 @@ class BoardMirror {
 
   // Starts no mirror for a module.xml, nor in the simulation of one board. `simulation` null: in real time.
   Result<void, Ending> start(Simulation* simulation);
-  // Announces when the schedule began in real time. Called after it has begun.
+  // Announces when the schedule began in real time, whenever it is another one. Called after the first has begun.
   void announce() noexcept;
   // Called when the store may have changed. Real-time safe.
   void notify() noexcept;
@@ -38,6 +39,7 @@ class BoardMirror {
   Prepared& prepared_;
   const Console& console_;
   std::unique_ptr<RunningMirror> running_;  // null: none
+  std::uint64_t announced_ = 0;             // number of the schedule that the other boards know
 };
 
 }  // namespace indurop::node

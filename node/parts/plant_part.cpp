@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/parts/plant_part.h"
 
+#include <indurop/detail/abi.h>
+
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/keys/participant_keys.h"
@@ -11,26 +15,35 @@ namespace {
 
 constexpr std::int64_t kTimeoutNs = 1'000'000'000;
 
-const scheduler::Band* band_of(const std::string& module, const config::Config& config,
-                               const scheduler::Engine& engine) {
-  const auto found = std::find_if(config.modules.begin(), config.modules.end(),
-                                  [&](const config::Module& known) { return known.name == module; });
-  return found == config.modules.end() ? nullptr
-                                       : engine.band_of(static_cast<std::uint32_t>(found - config.modules.begin()));
+std::uint32_t index_of(const std::string& module, const config::Config& config) {
+  return static_cast<std::uint32_t>(
+      std::find_if(config.modules.begin(), config.modules.end(),
+                   [&module](const config::Module& known) { return known.name == module; }) -
+      config.modules.begin());
 }
 
-// Returns null if no module writes the variable, several bands do, or a module that is in no band.
-const scheduler::Band* writer_of(const std::string& variable, const config::Config& config,
-                                 const config::CheckResult& check, const scheduler::Engine& engine) {
+// The only band that writes a variable, and which of its modules do.
+struct Writing {
+  const scheduler::Band* band = nullptr;  // null: no module, several bands, or a module that is in no band
+  std::vector<std::uint32_t> modules;
+};
+
+Writing writing_of(const std::string& variable, const config::Config& config, const config::CheckResult& check,
+                   const scheduler::Engine& engine) {
+  Writing writing;
   const auto use = std::find_if(check.uses.begin(), check.uses.end(),
                                 [&](const config::VariableUse& known) { return known.name == variable; });
   if (use == check.uses.end() || use->writers.empty()) {
-    return nullptr;
+    return writing;
   }
-  const scheduler::Band* const band = band_of(use->writers.front(), config, engine);
-  const bool alone = std::all_of(use->writers.begin(), use->writers.end(),
-                                 [&](const std::string& module) { return band_of(module, config, engine) == band; });
-  return alone ? band : nullptr;
+  for (const std::string& name : use->writers) {
+    writing.modules.push_back(index_of(name, config));
+  }
+  const scheduler::Band* const band = engine.band_of(writing.modules.front());
+  const bool alone = std::all_of(writing.modules.begin(), writing.modules.end(),
+                                 [&](std::uint32_t module) { return engine.band_of(module) == band; });
+  writing.band = alone ? band : nullptr;
+  return writing;
 }
 
 }  // namespace
@@ -88,23 +101,72 @@ mirror::Settings mirror_settings(const config::Plant& plant, const config::Plant
   return settings;
 }
 
+namespace {
+
+std::uint64_t mark_of(const mirror::Outgoing& out) {
+  const std::string text = fmt::format("> {} {} {}", out.variable, out.every_ns, out.best_effort);
+  return abi::fnv1a64(text.data(), text.size());
+}
+
+std::uint64_t mark_of(const mirror::Incoming& in) {
+  const std::string text = fmt::format("< {} {}", in.variable, in.owner);
+  return abi::fnv1a64(text.data(), text.size());
+}
+
+}  // namespace
+
+BoardLinks::BoardLinks(const mirror::Settings& settings) {
+  for (const mirror::Outgoing& out : settings.outgoing) {
+    marks_.push_back(mark_of(out));
+  }
+  for (const mirror::Incoming& in : settings.incoming) {
+    marks_.push_back(mark_of(in));
+  }
+  std::sort(marks_.begin(), marks_.end());
+}
+
+std::string BoardLinks::difference(const mirror::Settings& next) const {
+  const auto known = [this](const auto& one) { return std::binary_search(marks_.begin(), marks_.end(), mark_of(one)); };
+  for (const mirror::Outgoing& out : next.outgoing) {
+    if (!known(out)) {
+      return fmt::format("variable {} would be sent to other boards in another way", out.variable);
+    }
+  }
+  for (const mirror::Incoming& in : next.incoming) {
+    if (!known(in)) {
+      return fmt::format("variable {} would be read from board {}", in.variable, in.owner);
+    }
+  }
+  return next.outgoing.size() + next.incoming.size() == marks_.size()
+             ? ""
+             : "fewer variables would be exchanged with other boards";
+}
+
 void name_writers(mirror::Settings& settings, const config::Config& config, const config::CheckResult& check,
                   const scheduler::Engine& engine) {
-  std::vector<const scheduler::Band*> bands;
+  struct Group {
+    const scheduler::Band* band;
+    std::vector<std::uint32_t> modules;  // sorted
+  };
+  std::vector<Group> groups;
   for (mirror::Outgoing& out : settings.outgoing) {
-    const scheduler::Band* const band = writer_of(out.variable, config, check, engine);
-    if (band == nullptr) {
+    const Writing writing = writing_of(out.variable, config, check, engine);
+    if (writing.band == nullptr) {
       continue;
     }
-    const auto known = std::find(bands.begin(), bands.end(), band);
-    out.writers = static_cast<int>(known - bands.begin());
-    if (known == bands.end()) {
-      bands.push_back(band);
-      // A module in a process of its own does not wake the mirror when it is done.
-      settings.writers.push_back({[band] { return band->activity(); },
-                                  band->plan().kind != scheduler::BandKind::Process,
-                                  std::max(kTimeoutNs, 2 * band->plan().period_ns)});
-    }
+    const auto known = std::find_if(groups.begin(), groups.end(),
+                                    [&writing](const Group& group) { return group.band == writing.band; });
+    out.writers = static_cast<int>(known - groups.begin());
+    Group& group = known == groups.end() ? groups.emplace_back(Group{writing.band, {}}) : *known;
+    group.modules.insert(group.modules.end(), writing.modules.begin(), writing.modules.end());
+    std::sort(group.modules.begin(), group.modules.end());
+    group.modules.erase(std::unique(group.modules.begin(), group.modules.end()), group.modules.end());
+  }
+  for (const Group& group : groups) {
+    // A module in a process of its own does not wake the mirror when it is done.
+    settings.writers.push_back({[&engine, modules = group.modules] { return engine.activity_of(modules); },
+                                group.band->plan().kind != scheduler::BandKind::Process,
+                                std::max(kTimeoutNs, 2 * group.band->plan().period_ns)});
   }
 }
 

@@ -7,7 +7,6 @@
 
 #include "config/xml/plant_reader.h"
 #include "config/xml/reader.h"
-#include "node/parts/plant_part.h"
 
 namespace indurop::node {
 namespace {
@@ -122,6 +121,7 @@ Reading read_plant(const Options& options) {
     if (plant.boards[i].name == options.board) {
       out.checked.mirror = mirror_settings(plant, check, i);
       out.checked.mirror->network.one_host = options.one_host;
+      out.checked.links = BoardLinks(*out.checked.mirror);
       out.checked.external.configure(plant, check, i, options.one_host);
       out.checked.config = std::move(plant.boards[i].config);
       out.checked.check = std::move(check.boards[i]);
@@ -133,10 +133,29 @@ Reading read_plant(const Options& options) {
 
 }  // namespace
 
+namespace {
+
+Rechecked recheck_board(Options options, const std::filesystem::path& file) {
+  options.config = file;
+  Reading reading = read_plant(options);
+  Rechecked out;
+  out.ok = reading.ok && reading.checked.mirror.has_value();
+  out.config = std::move(reading.checked.config);
+  out.check = std::move(reading.checked.check);
+  out.diagnostics = std::move(reading.diagnostics);
+  out.mirror = std::move(reading.checked.mirror);
+  return out;
+}
+
+}  // namespace
+
 Rechecked recheck(const Options& options, const std::filesystem::path& file) {
+  if (!options.board.empty()) {
+    return recheck_board(options, file);
+  }
   config::ReadResult read = config::read_config(file);
   if (!read.ok()) {
-    return {false, {}, {}, std::move(read.diagnostics)};
+    return {false, {}, {}, std::move(read.diagnostics), {}};
   }
   take_core(options, read.config);
   Rechecked out = recheck(options, read.config);

@@ -11,6 +11,7 @@
 #include "config/check/check.h"
 #include "network/mirror/frames/settings.h"
 #include "node/parts/external_part.h"
+#include "node/parts/plant_part.h"
 #include "node/run/ending.h"
 #include "node/run/options.h"
 
@@ -20,6 +21,7 @@ struct Checked {
   config::Config config;
   config::CheckResult check;
   std::optional<mirror::Settings> mirror;  // of a board of a plant
+  BoardLinks links;                        // what `mirror` exchanges
   ExternalPart external;
   std::vector<std::uint32_t> replaced;  // indices of modules with a file of --with
   std::optional<std::uint32_t> alone;   // index of the only module that is loaded, for Replay::report
@@ -31,8 +33,9 @@ struct Rechecked {
   config::Config config;  // meaningful only if ok, as `check`
   config::CheckResult check;
   std::vector<base::Diagnostic> diagnostics;
+  std::optional<mirror::Settings> mirror;  // of a board of a plant
 };
-// Of a module.xml.
+// Of a module.xml, or the manifest of the plant if this is the node of a board.
 Rechecked recheck(const Options& options, const std::filesystem::path& file);
 // Of one that was checked before.
 Rechecked recheck(const Options& options, const config::Config& config);

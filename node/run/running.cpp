@@ -55,7 +55,7 @@ Running::Running(const Options& options, Console& console, base::StopSignal& sig
                  prepared.tape.get()),
       commands_(ModuleCommands::Parts{options, checked.config, run_, loaded.libraries, engine_, processes_,
                                       normal_threads_, phases_, *prepared.failsafe, console, prepared.tape.get(),
-                                      placement(options, prepared.rights)},
+                                      placement(options, prepared.rights), checked.links},
                 Exchanges::Parts{options.node, checked.config, run_, loaded.libraries, engine_, *prepared.store,
                                  console, options.simulation.on},
                 checked.check,
@@ -271,6 +271,7 @@ Ending Running::supervise() {
       break;
     }
     commands_.poll(now);
+    mirror_.announce();
     forces_.report_changes(*prepared_.store, console_);
     if (black_box_) {
       black_box_->check(now);

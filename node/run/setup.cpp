@@ -112,6 +112,15 @@ void renumber(std::vector<scheduler::Task>& tasks, const std::vector<std::uint32
   }
 }
 
+void delay_periods(std::vector<scheduler::Task>& tasks, scheduler::RunBlockSetup& setup, std::int64_t delay_ns) {
+  for (scheduler::Task& task : tasks) {
+    scheduler::ModuleSetup& module = setup.modules[task.index];
+    if (task.operation == Operation::Periodic && task.period_ns > 0) {
+      task.offset_ns = module.offset_ns = (task.offset_ns + delay_ns) % task.period_ns;
+    }
+  }
+}
+
 void set_work_times(std::vector<scheduler::Task>& tasks, const config::Config& config,
                     const config::CheckOptions::Times& times) {
   for (scheduler::Task& task : tasks) {

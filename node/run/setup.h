@@ -29,6 +29,9 @@ std::vector<scheduler::Task> make_tasks(const config::Config& config, const conf
                                         const scheduler::RunBlockSetup& setup, int default_core);
 // Replaces the indices of modules by others: `indices`, by module.
 void renumber(std::vector<scheduler::Task>& tasks, const std::vector<std::uint32_t>& indices);
+// Lets the periods of all modules begin so much later, as far as their own periods go.
+void delay_periods(std::vector<scheduler::Task>& tasks, scheduler::RunBlockSetup& setup, std::int64_t delay_ns);
+
 // In a simulation each run takes the time of <wcet>, else that of `times`, else no time.
 void set_work_times(std::vector<scheduler::Task>& tasks, const config::Config& config,
                     const config::CheckOptions::Times& times);

@@ -47,6 +47,7 @@ std::optional<SetRequest> set_request_of(const Json& json) {
   request.act = found->act;
   base::read(json, "deployment", request.deployment);
   base::read(json, "tick", request.tick);
+  base::read(json, "config", request.config);
   for (const Json& module : json["modules"].values()) {
     SetRequest::Module& one = request.modules.emplace_back();
     base::read(module, "name", one.name);
@@ -68,6 +69,7 @@ Status write_set_request(const std::string& node, const SetRequest& request) {
                     {{"act", found->word},
                      {"deployment", request.deployment},
                      {"tick", request.tick},
+                     {"config", request.config},
                      {"modules", std::move(modules)}});
 }
 
@@ -89,7 +91,11 @@ Status write_set_report(const std::string& node, const SetReport& report) {
                      {"problem", report.problem},
                      {"refused", report.refused},
                      {"needs_restart", report.needs_restart},
-                     {"modules", std::move(modules)}});
+                     {"modules", std::move(modules)},
+                     {"schedule", json_of(report.schedule)},
+                     {"schedule_tick", report.schedule_tick},
+                     {"grid_ticks", report.grid_ticks},
+                     {"grid_begin", report.grid_begin}});
 }
 
 std::optional<SetReport> read_set_report(const std::string& node) {
@@ -114,6 +120,10 @@ std::optional<SetReport> read_set_report(const std::string& node) {
   for (const Json& module : (*json)["modules"].values()) {
     report.modules.push_back(report_of(module));
   }
+  report.schedule = fates_of((*json)["schedule"]);
+  base::read(*json, "schedule_tick", report.schedule_tick);
+  base::read(*json, "grid_ticks", report.grid_ticks);
+  base::read(*json, "grid_begin", report.grid_begin);
   return report;
 }
 

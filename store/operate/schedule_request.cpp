@@ -30,12 +30,27 @@ std::optional<ScheduleRequest> take_schedule_request(const std::string& node) {
   return request;
 }
 
-Json json_of(const ScheduleReport& report) {
-  Json modules = Json::array();
-  for (const ScheduleReport::Module& module : report.modules) {
-    modules.push_back({{"name", module.name}, {"fate", module.fate}, {"text", module.text}});
+Json json_of(const std::vector<ScheduleReport::Module>& modules) {
+  Json list = Json::array();
+  for (const ScheduleReport::Module& module : modules) {
+    list.push_back({{"name", module.name}, {"fate", module.fate}, {"text", module.text}});
   }
-  return {{"text", report.text},         {"messages", report.messages}, {"modules", modules},
+  return list;
+}
+
+std::vector<ScheduleReport::Module> fates_of(const Json& json) {
+  std::vector<ScheduleReport::Module> modules;
+  for (const Json& module : json.values()) {
+    ScheduleReport::Module& one = modules.emplace_back();
+    base::read(module, "name", one.name);
+    base::read(module, "fate", one.fate);
+    base::read(module, "text", one.text);
+  }
+  return modules;
+}
+
+Json json_of(const ScheduleReport& report) {
+  return {{"text", report.text},         {"messages", report.messages}, {"modules", json_of(report.modules)},
           {"restarts", report.restarts}, {"schedule", report.schedule}, {"tick", report.tick}};
 }
 
@@ -51,12 +66,7 @@ std::optional<ScheduleReport> read_schedule_report(const std::string& node) {
   ScheduleReport report;
   base::read(*json, "text", report.text);
   base::read(*json, "messages", report.messages);
-  for (const Json& module : (*json)["modules"].values()) {
-    ScheduleReport::Module& one = report.modules.emplace_back();
-    base::read(module, "name", one.name);
-    base::read(module, "fate", one.fate);
-    base::read(module, "text", one.text);
-  }
+  report.modules = fates_of((*json)["modules"]);
   base::read(*json, "restarts", report.restarts);
   base::read(*json, "schedule", report.schedule);
   base::read(*json, "tick", report.tick);

@@ -43,5 +43,7 @@ Status write_schedule_report(const std::string& node, const ScheduleReport& repo
 std::optional<ScheduleReport> read_schedule_report(const std::string& node);
 
 base::Json json_of(const ScheduleReport& report);
+base::Json json_of(const std::vector<ScheduleReport::Module>& modules);
+std::vector<ScheduleReport::Module> fates_of(const base::Json& json);
 
 }  // namespace indurop::operate

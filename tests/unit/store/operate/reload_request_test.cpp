@@ -121,12 +121,15 @@ TEST_F(ReloadFiles, A_request_about_several_modules_comes_as_it_was_written_and_
   using Act = SetRequest::Act;
   EXPECT_FALSE(take_set_request("n"));
   for (const Act act : {Act::Compare, Act::Prepare, Act::Exchange, Act::Decide}) {
-    ASSERT_TRUE(write_set_request("n", {act, "0123", {{"press", "/a b/p.so"}, {"belt", ""}}, ~std::uint64_t{0}}).ok());
+    ASSERT_TRUE(
+        write_set_request("n", {act, "0123", {{"press", "/a b/p.so"}, {"belt", ""}}, ~std::uint64_t{0}, "/a b/p.xml"})
+            .ok());
     const auto request = take_set_request("n");
     ASSERT_TRUE(request);
     EXPECT_EQ(request->act, act);
     EXPECT_EQ(request->deployment, "0123");
     EXPECT_EQ(request->tick, ~std::uint64_t{0});
+    EXPECT_EQ(request->config, "/a b/p.xml");
     ASSERT_EQ(request->modules.size(), 2U);
     EXPECT_EQ(request->modules[0].file, "/a b/p.so");
     EXPECT_EQ(request->modules[1].name, "belt");
@@ -148,6 +151,10 @@ TEST_F(ReloadFiles, A_report_about_several_modules_comes_as_it_was_written) {
     sut.modules.resize(2);
     sut.modules[1].module = "belt";
     sut.modules[1].tick = 5;
+    sut.schedule = {{"press", "rescheduled", "period 1 ms -> 2 ms"}, {"belt", "kept", ""}};
+    sut.schedule_tick = 6;
+    sut.grid_ticks = 7;
+    sut.grid_begin = 3;
     ASSERT_TRUE(write_set_report("n", sut).ok());
     const auto read = read_set_report("n");
     ASSERT_TRUE(read);
@@ -159,6 +166,13 @@ TEST_F(ReloadFiles, A_report_about_several_modules_comes_as_it_was_written) {
     ASSERT_EQ(read->modules.size(), 2U);
     EXPECT_EQ(read->modules[1].module, "belt");
     EXPECT_EQ(read->modules[1].tick, 5U);
+    ASSERT_EQ(read->schedule.size(), 2U);
+    EXPECT_EQ(read->schedule[0].name, "press");
+    EXPECT_EQ(read->schedule[0].fate, "rescheduled");
+    EXPECT_EQ(read->schedule[0].text, "period 1 ms -> 2 ms");
+    EXPECT_EQ(read->schedule_tick, 6U);
+    EXPECT_EQ(read->grid_ticks, 7U);
+    EXPECT_EQ(read->grid_begin, 3U);
   }
 }
 

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// A schedule that follows for a deployment: it is prepared, waits until the tick of all boards is named, and gives way
+// to the one before if the deployment is given up.
+#include <algorithm>
+
+#include "core/keys/digest.h"
+#include "node/exchange/schedule_change.h"
+
+namespace indurop::node {
+namespace {
+
+constexpr const char* kChangeGivenUp = "the change was given up";
+
+bool writes(const config::ModuleFacts& facts, const std::string& variable) {
+  const auto access = facts.file.access.find(abi::fnv1a64(variable.data(), variable.size()));
+  return access != facts.file.access.end() && access->second.writes;
+}
+
+}  // namespace
+
+MacroGrid ScheduleChange::grid() const {
+  return common_grid(grid_, grid_, parts_.run.basic_period_ns);
+}
+
+MacroGrid ScheduleChange::common_with_next() const {
+  return held_.changes ? common_grid(grid_, next_grid_, parts_.run.basic_period_ns) : grid();
+}
+
+void ScheduleChange::hold(const std::string& manifest, bool compares) {
+  held_ = {};
+  held_.on = true;
+  held_.before = parts_.config.file.string();
+  report_ = {};
+  plan_ = {};
+  check({manifest, false, compares});
+}
+
+void ScheduleChange::release() {
+  held_ = {};
+  plan_ = {};
+}
+
+bool ScheduleChange::is_prepared() const noexcept {
+  return step_ == Step::Ready || step_ == Step::Idle || !held_.failure.empty();
+}
+
+// Messages between boards, and who writes what is sent, are those of the start.
+void ScheduleChange::compare_links() {
+  if (std::string difference = parts_.links.difference(*next_.mirror); !difference.empty()) {
+    plan_.restarts.push_back(std::move(difference));
+  }
+  for (const std::uint32_t place : plan_.added) {
+    const config::Module& module = next_.config.modules[place];
+    const std::uint32_t index = plan_.indices[place];
+    const auto digest = keys::digest_of_file(module.file);
+    if (index != SchedulePlan::kNoModule && digest && digest->digest == parts_.libraries[index].digest()) {
+      continue;  // it was there before
+    }
+    const auto sent =
+        std::find_if(next_.mirror->outgoing.begin(), next_.mirror->outgoing.end(),
+                     [&](const mirror::Outgoing& out) { return writes(next_.check.facts[place], out.variable); });
+    if (sent != next_.mirror->outgoing.end()) {
+      plan_.restarts.push_back(fmt::format("module {} is added and writes variable {}, which other boards read",
+                                           module.name, sent->variable));
+    }
+  }
+}
+
+void ScheduleChange::enter(std::uint64_t tick) {
+  if (step_ != Step::Ready) {
+    return;  // nothing changes, or it has failed
+  }
+  arrivals_.enter();
+  if (parts_.engine.change_at({tick, 1, tick})) {
+    step_ = Step::Waiting;
+  } else {
+    fail(fmt::format("it missed the tick of the change, {}: it was in tick {} when the order came", tick,
+                     parts_.run.tick.load()));
+  }
+}
+
+void ScheduleChange::go_back() {
+  if (!held_.on || held_.given_up) {
+    return;
+  }
+  held_.given_up = true;
+  if (step_ == Step::Ready) {
+    fail(kChangeGivenUp);
+  } else {
+    follow_held();
+  }
+}
+
+// Returns true if the preparation has ended with this.
+bool ScheduleChange::is_given_up() {
+  if (!held_.given_up || request_.back) {
+    return false;
+  }
+  fail(kChangeGivenUp);
+  return true;
+}
+
+// The way back is a change like the others, but waits for no other board.
+void ScheduleChange::follow_held() {
+  if (step_ == Step::Idle && held_.given_up && held_.counts && !request_.back) {
+    check({held_.before, true, false});
+  }
+}
+
+}  // namespace indurop::node
