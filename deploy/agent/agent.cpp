@@ -254,7 +254,7 @@ class Agent {
         change_.load(order);
         break;
       case Do::Enter:
-        change_.enter(order, transaction_.switch_at());
+        change_.enter(order, transaction_.switch_at(), transaction_.joining());
         break;
       case Do::Switch:
         change_.restart(order);

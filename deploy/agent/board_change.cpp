@@ -19,10 +19,10 @@ void BoardChange::load(const Order& order) {
                   process_.condition() == NodeCondition::Running && process_.held().empty()});
 }
 
-void BoardChange::enter(const Order& order, rt::MonoTime at) {
-  log_.info("deployment {}: exchanging modules", shown_id(order.deployment));
+void BoardChange::enter(const Order& order, rt::MonoTime at, bool alone) {
+  log_.info("deployment {}: changing without a restart", shown_id(order.deployment));
   held_before_.clear();
-  exchange_.enter(at);
+  exchange_.enter(at, alone);
 }
 
 void BoardChange::restart(const Order& order) {

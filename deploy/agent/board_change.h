@@ -28,8 +28,8 @@ class BoardChange {
   void begin();
   // Loads what differs next to what runs, or compares only; poll() returns the answer.
   void load(const Order& order);
-  // Exchanges it at this time; poll() returns the answer.
-  void enter(const Order& order, rt::MonoTime at);
+  // Exchanges it at this time; poll() returns the answer. `alone`: this board takes over what the others have.
+  void enter(const Order& order, rt::MonoTime at, bool alone);
   void restart(const Order& order);
   void commit(const Order& order);
   void go_back(Way way);

@@ -20,8 +20,7 @@ using scheduler::CommandResult;
 using State = operate::SetReport::State;
 using scheduler::RunBlock;
 
-constexpr std::int64_t kLongestGridNs = rt::kNanosPerSecond;  // longer macro periods are not waited for
-constexpr std::chrono::seconds kToSettle{2};
+constexpr std::chrono::seconds kToSettle{5};
 constexpr std::chrono::milliseconds kSettlePoll{10};
 
 // A node without modules has nothing that could take a command.
@@ -40,10 +39,6 @@ std::map<std::string, std::string> running_versions(const RunBlock& block) {
     }
   }
   return digests;
-}
-
-std::uint64_t ticks_of_grid(const RunBlock& block) noexcept {
-  return block.macro_period_ns > kLongestGridNs ? 1 : std::max<std::uint64_t>(block.slot_count, 1);
 }
 
 std::string why_of(const operate::ReloadReport& report) {
@@ -96,13 +91,13 @@ void BoardExchange::begin_load() {
   early_.clear();
   answers_ = true;
   stage_ = Stage::Loading;
-  grid_ns_ = runs ? run().basic_period_ns * static_cast<std::int64_t>(ticks_of_grid(run())) : 0;
+  grid_ns_ = 0;
   if (board_plan_.restart.empty()) {
     auto lock = operate::ReloadLock::acquire(board_);
     if (lock) {
       lock_.emplace(std::move(lock).value());
       request({task_.compare ? SetRequest::Act::Compare : SetRequest::Act::Prepare, task_.to,
-               std::move(change.exchanged), 0},
+               std::move(change.exchanged), 0, std::move(change.manifest)},
               Stage::Loading);
     } else {
       early_ = "a process on the board is exchanging a module";
@@ -111,18 +106,21 @@ void BoardExchange::begin_load() {
   plan_ = text_of(board_plan_);
 }
 
-void BoardExchange::enter(rt::MonoTime at) {
+void BoardExchange::enter(rt::MonoTime at, bool alone) {
   answers_ = true;
   stage_ = Stage::Entering;
   if (!lock_ || !run_) {
     early_ = "its node has nothing to exchange";
     return;
   }
-  const auto grid = static_cast<std::int64_t>(ticks_of_grid(run()));
+  const operate::SetReport report = report_of_node();
+  const auto grid = static_cast<std::int64_t>(std::max<std::uint64_t>(report.grid_ticks, 1));
+  const auto begin = static_cast<std::int64_t>(report.grid_begin);
   const std::int64_t period = run().basic_period_ns * grid;
-  const std::int64_t since = rt::to_ns(at) - run().epoch_ns.load();
-  const std::int64_t steps = std::max<std::int64_t>((since + period / 2) / period, 0);
-  request({SetRequest::Act::Exchange, task_.to, {}, static_cast<std::uint64_t>(steps * grid)}, Stage::Entering);
+  const std::int64_t since = rt::to_ns(at) - run().epoch_ns.load() - run().basic_period_ns * begin;
+  const std::int64_t steps = std::max<std::int64_t>((since + (alone ? period - 1 : period / 2)) / period, 0);
+  request({SetRequest::Act::Exchange, task_.to, {}, static_cast<std::uint64_t>(begin + steps * grid), ""},
+          Stage::Entering);
 }
 
 void BoardExchange::decide(const std::string& deployment) {
@@ -133,7 +131,7 @@ void BoardExchange::decide(const std::string& deployment) {
   answers_ = true;
   decided_ = deployment;
   early_.clear();
-  request({SetRequest::Act::Decide, deployment, {}, 0}, Stage::Deciding);
+  request({SetRequest::Act::Decide, deployment, {}, 0, ""}, Stage::Deciding);
 }
 
 void BoardExchange::request(SetRequest request, Stage stage) {
@@ -242,6 +240,23 @@ void BoardExchange::describe(const operate::SetReport& report) {
     board_plan_.tick = std::max(board_plan_.tick, module.tick);
     board_plan_.left_out = std::max(board_plan_.left_out, module.left_out);
   }
+  describe_schedule(report);
+}
+
+void BoardExchange::describe_schedule(const operate::SetReport& report) {
+  board_plan_.schedule_tick = report.schedule_tick;
+  for (ModulePlan& module : board_plan_.modules) {
+    const auto found = std::find_if(report.schedule.begin(), report.schedule.end(),
+                                    [&](const auto& one) { return one.name == module.module; });
+    if (module.module == report.refused && !report.needs_restart) {
+      module.act = ModulePlan::Act::Refused;
+      module.why = report.problem;
+    } else if (found != report.schedule.end() && found->fate == "rescheduled") {
+      const bool kept = module.act == ModulePlan::Act::Kept || module.act == ModulePlan::Act::Rescheduled;
+      module.act = kept ? ModulePlan::Act::Rescheduled : module.act;
+      module.why = kept || module.why.empty() ? found->text : module.why + "; " + found->text;
+    }
+  }
 }
 
 std::optional<BoardExchange::Answer> BoardExchange::loaded() {
@@ -251,6 +266,7 @@ std::optional<BoardExchange::Answer> BoardExchange::loaded() {
   }
   describe(report);
   if (early_.empty() && (report.state == State::Ready || report.state == State::Compared)) {
+    grid_ns_ = run().basic_period_ns * static_cast<std::int64_t>(report.grid_ticks);
     return done("", true);
   }
   const std::string problem = early_.empty() ? report.problem : early_;
@@ -299,7 +315,7 @@ operate::SetReport BoardExchange::report_of_node() const {
 
 void BoardExchange::settle(const std::string& board, const std::string& deployment) {
   const auto file = vars::running_node(board) > 0 ? run_of(board) : std::nullopt;
-  if (!file || !operate::write_set_request(board, {SetRequest::Act::Decide, deployment, {}, 0})) {
+  if (!file || !operate::write_set_request(board, {SetRequest::Act::Decide, deployment, {}, 0, ""})) {
     return;
   }
   scheduler::ModuleRecord& first = run_block(*file).modules()[0];

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lets the node of this board change to another deployment without a restart: the modules that differ are loaded next
-// to those that run, exchanged at one tick, and, when the plant has decided, kept or exchanged back. The node does that
-// on its own; the agent only requests it, so that nothing is lost if one of both is killed.
+// to those that run, another schedule is built next to the one that counts, both are exchanged at one tick, and, when
+// the plant has decided, kept or exchanged back. The node does that on its own; the agent only requests it, so that
+// nothing is lost if one of both is killed.
 
 #pragma once
 
@@ -38,8 +39,9 @@ class BoardExchange {
   };
   // Loads what differs between the two deployments, as soon as an earlier decision is done.
   void load(Task task);
-  // Lets the node exchange it in the tick that begins at this time.
-  void enter(rt::MonoTime at);
+  // Lets the node exchange it in the tick that begins at this time; `alone`: no other board does, so a later one will
+  // do.
+  void enter(rt::MonoTime at, bool alone);
   // The deployment that is to run from now on: one of the two. A step in progress gets no answer then.
   void decide(const std::string& deployment);
   // Continues; returns the answer to the last call, once.
@@ -71,6 +73,7 @@ class BoardExchange {
   std::optional<Answer> decided();
   Answer done(const std::string& problem, bool exchanges = false);
   void describe(const operate::SetReport& report);
+  void describe_schedule(const operate::SetReport& report);
   [[nodiscard]] operate::SetReport report_of_node() const;
 
   const AgentState& state_;

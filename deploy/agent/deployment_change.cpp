@@ -162,13 +162,16 @@ DeploymentChange change_between(const AgentState& state, const std::string& boar
   }
   plan_modules(*before, *after, board, running, change);
   if (change.plan.restart.empty()) {
-    change.plan.restart = config::manifest_difference(before->document(), after->document());
+    change.plan.restart =
+        config::manifest_difference(before->document(), after->document(), config::ComparedElements::NotSchedule);
   }
   if (change.plan.restart.empty()) {
     change.plan.restart = changed_file(*before, *after);
   }
   if (!change.plan.restart.empty()) {
     change.exchanged.clear();
+  } else if (!config::manifest_difference(before->document(), after->document()).empty()) {
+    change.manifest = state.manifest(to).string();
   }
   return change;
 }

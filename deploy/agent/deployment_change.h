@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a change from one deployment to another means for a board, as far as its files say it: which modules go on,
-// which of them have another version, and why the node would have to be restarted.
+// which of them have another version, whether the schedule differs, and why the node would have to be restarted.
 
 #pragma once
 
@@ -17,6 +17,7 @@ namespace indurop::deploy {
 struct DeploymentChange {
   BoardPlan plan;                                      // Exchanged: of all that have another version
   std::vector<operate::SetRequest::Module> exchanged;  // only if the node need not be restarted
+  std::string manifest;  // of the schedule that follows, on whatever board it differs; empty: the schedule stays
 };
 
 // Both deployments are installed on the board. `running`: SHA-256 of the versions that run, by module; modules that are

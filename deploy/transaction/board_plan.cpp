@@ -21,6 +21,7 @@ struct PlanWord {
 constexpr std::array kPlanWords{PlanWord{PlannedAct::Kept, "kept", "kept"},
                                 PlanWord{PlannedAct::Exchanged, "exchanged", "exchanged with state"},
                                 PlanWord{PlannedAct::Fresh, "fresh", "exchanged fresh"},
+                                PlanWord{PlannedAct::Rescheduled, "rescheduled", "rescheduled"},
                                 PlanWord{PlannedAct::Added, "added", "added"},
                                 PlanWord{PlannedAct::Ended, "ended", "ended"},
                                 PlanWord{PlannedAct::Restarted, "restarted", "restarted"},
@@ -41,8 +42,11 @@ std::string text_of(const BoardPlan& plan) {
   for (const ModulePlan& module : plan.modules) {
     modules.push_back({{"module", module.module}, {"act", plan_word_of(module.act).word}, {"why", module.why}});
   }
-  return Json{
-      {"restart", plan.restart}, {"tick", plan.tick}, {"left_out", plan.left_out}, {"modules", std::move(modules)}}
+  return Json{{"restart", plan.restart},
+              {"tick", plan.tick},
+              {"schedule_tick", plan.schedule_tick},
+              {"left_out", plan.left_out},
+              {"modules", std::move(modules)}}
       .dump();
 }
 
@@ -50,7 +54,7 @@ std::optional<BoardPlan> parse_board_plan(std::string_view text) {
   const auto json = Json::parse(text);
   BoardPlan plan;
   if (!json || !base::read(*json, "restart", plan.restart) || !base::read(*json, "tick", plan.tick) ||
-      !base::read(*json, "left_out", plan.left_out)) {
+      !base::read(*json, "left_out", plan.left_out) || !base::read(*json, "schedule_tick", plan.schedule_tick)) {
     return std::nullopt;
   }
   for (const Json& one : (*json)["modules"].values()) {
@@ -70,7 +74,8 @@ std::optional<BoardPlan> parse_board_plan(std::string_view text) {
 
 BoardPlan restarted(BoardPlan plan) {
   for (ModulePlan& module : plan.modules) {
-    if (module.act == PlannedAct::Kept || module.act == PlannedAct::Exchanged || module.act == PlannedAct::Fresh) {
+    if (module.act == PlannedAct::Kept || module.act == PlannedAct::Exchanged || module.act == PlannedAct::Fresh ||
+        module.act == PlannedAct::Rescheduled) {
       module = {module.module, PlannedAct::Restarted, ""};
     }
   }

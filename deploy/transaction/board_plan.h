@@ -16,6 +16,7 @@ struct ModulePlan {
     Kept,       // the same file: it goes on
     Exchanged,  // its new version continues with what it keeps
     Fresh,      // its new version begins with its initial values
+    Rescheduled,
     Added,
     Ended,
     Restarted,
@@ -31,8 +32,9 @@ const char* to_text(ModulePlan::Act act) noexcept;
 struct BoardPlan {
   std::string restart;  // why the node cannot go on; empty: it can
   std::vector<ModulePlan> modules;
-  std::uint64_t tick = 0;      // first tick with the new versions; 0: nothing was exchanged
-  std::uint64_t left_out = 0;  // ticks without new values of a module, at most
+  std::uint64_t tick = 0;           // first tick with the new versions; 0: nothing was exchanged
+  std::uint64_t schedule_tick = 0;  // first tick of the new schedule; 0: the schedule stays
+  std::uint64_t left_out = 0;       // ticks without new values of a module, at most
 };
 std::string text_of(const BoardPlan& plan);
 // Returns nothing if the text is no plan.

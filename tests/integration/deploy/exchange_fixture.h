@@ -22,8 +22,8 @@ class ExchangeTest : public AgentsTest {
     std::filesystem::remove(to);
     std::filesystem::copy_file(std::filesystem::path(EXCHANGED_FOLDER) / (version + ".so"), to);
   }
-  // Both boards; `period` of all modules, which decides the schedule.
-  [[nodiscard]] std::string plant(const std::string& period = "10ms") const {
+  // Both boards; `more`: elements of all modules besides.
+  [[nodiscard]] std::string plant(const std::string& period = "10ms", const std::string& more = "") const {
     std::ofstream out(folder() / "plant.xml");
     out << "<plant name=\"p" << ::getpid() << "\"><domain>" << domain() << "</domain><external>off</external>\n";
     for (const char* name : {"a", "b"}) {
@@ -31,7 +31,7 @@ class ExchangeTest : public AgentsTest {
       for (const auto& [module, priority] : {std::pair{"press", 1}, std::pair{"ticks", 2}}) {
         out << "<module><name>" << module << "</name><filename>./" << module << "_" << name
             << ".so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype><period>" << period
-            << "</period><priority>" << priority << "</priority><budget>1s</budget></module>\n";
+            << "</period><priority>" << priority << "</priority><budget>1s</budget>" << more << "</module>\n";
       }
       out << "</board>\n";
     }

@@ -117,14 +117,15 @@ TEST_F(Exchange, A_version_that_cannot_start_is_refused_and_nothing_is_exchanged
 TEST_F(Exchange, What_cannot_be_exchanged_restarts_the_nodes_and_the_plan_says_why) {
   start_plant();
   bring("a", "press_a_second");
-  const Outcome plan = deploy(plant("20ms"), {"--dry-run"});
+  const std::string other = plant("10ms", "<core>0</core>");
+  const Outcome plan = deploy(other, {"--dry-run"});
   EXPECT_EQ(plan.code, 0) << plan.err;
   EXPECT_EQ(planned(plan.json(), "a", "press"), "restarted");
   EXPECT_EQ(planned(plan.json(), "b", "ticks"), "restarted");
   EXPECT_THAT(plan.json()["plan"][0]["restart"].get<std::string>(),
-              HasSubstr("board " + board("a") + ", module press: <period> was 10ms and is 20ms"));
+              HasSubstr("board " + board("a") + ", module press: <core> is new"));
   EXPECT_EQ(vars::running_node(board("a")), pids_["a"]);
-  const Outcome done = deploy(plant("20ms"));
+  const Outcome done = deploy(other);
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_NE(vars::running_node(board("a")), pids_["a"]);
   EXPECT_NE(vars::running_node(board("b")), pids_["b"]);

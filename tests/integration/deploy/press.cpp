@@ -3,6 +3,7 @@
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -14,7 +15,7 @@ namespace {
 std::int64_t strokes = 0;
 [[maybe_unused]] std::int64_t strokes_of_this_version = 0;
 
-#if defined(PRESS_FIRST)
+#if defined(PRESS_FIRST) || defined(PRESS_LONG)
 constexpr std::int64_t kSign = 1;
 #else
 constexpr std::int64_t kSign = -1;
@@ -42,6 +43,9 @@ void onRun() {
 #endif
 #if defined(PRESS_READS_MORE)
   strokes_of_this_version = static_cast<std::int64_t>(xt::b_ticks);
+#endif
+#if defined(PRESS_LONG)
+  std::this_thread::sleep_for(std::chrono::milliseconds(25));
 #endif
   xt::b_turns = strokes;
   xt::b_shown = strokes * kSign;

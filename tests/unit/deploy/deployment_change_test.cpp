@@ -129,11 +129,31 @@ TEST_F(DeploymentChangeTest, A_process_that_differs_needs_a_restart) {
 
 TEST_F(DeploymentChangeTest, A_manifest_that_says_something_else_needs_a_restart) {
   Files after = before_;
-  after["plant.xml"] = plant(module("press", "./press.so", "<budget>1s</budget>") + module("drum", "./belt.so"),
-                             module("eye", "./eye.so"));
+  after["plant.xml"] =
+      plant(module("press", "./press.so", "<core>1</core>") + module("drum", "./belt.so"), module("eye", "./eye.so"));
   const DeploymentChange sut = change(before_, after);
   EXPECT_THAT(sut.plan.restart, HasSubstr("board a, module press"));
   EXPECT_THAT(acts(sut), ElementsAre(Act::Kept, Act::Added, Act::Ended));
+  EXPECT_EQ(sut.manifest, "");
+}
+
+TEST_F(DeploymentChangeTest, Another_schedule_on_whatever_board_follows_by_its_manifest) {
+  Files after = before_;
+  EXPECT_EQ(change(before_, after).manifest, "");
+  after["drum.so"] = "d1";
+  after["press.so"] = "p2";
+  after["plant.xml"] = plant(module("press", "./press.so", "<budget>1s</budget>") + module("drum", "./drum.so"),
+                             module("eye", "./eye.so"));
+  const DeploymentChange sut = change(before_, after);
+  EXPECT_EQ(sut.plan.restart, "");
+  EXPECT_THAT(acts(sut), ElementsAre(Act::Exchanged, Act::Added, Act::Ended));
+  EXPECT_EQ(sut.exchanged.size(), 1U);
+  EXPECT_EQ(keys::digest_of_file(sut.manifest)->digest, keys::digest_of(after["plant.xml"]));
+  after = before_;
+  after["plant.xml"] = plant(module("press", "./press.so") + module("belt", "./belt.so"),
+                             module("eye", "./eye.so", "<budget>1s</budget>"));
+  EXPECT_NE(change(before_, after).manifest, "") << "of the other board";
+  EXPECT_THAT(acts(change(before_, after)), ElementsAre(Act::Kept, Act::Kept));
 }
 
 TEST_F(DeploymentChangeTest, Files_may_have_other_names_and_places) {

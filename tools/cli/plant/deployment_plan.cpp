@@ -66,6 +66,10 @@ void DeploymentPlan::print_ticks(Context& context) const {
       context.out.message_line(fmt::format("  {} exchanged its modules in tick {}; {} without new values",
                                            printable(board), known.plan.tick, counted(known.plan.left_out, "tick")));
     }
+    if (known.plan.schedule_tick > 0 && !context.out.quiet()) {
+      context.out.message_line(
+          fmt::format("  {} runs by its new schedule since tick {}", printable(board), known.plan.schedule_tick));
+    }
   }
 }
 
@@ -80,6 +84,7 @@ JsonValue DeploymentPlan::json() const {
     list.push_back({{"board", board},
                     {"restart", plan.restart},
                     {"tick", plan.tick},
+                    {"schedule_tick", plan.schedule_tick},
                     {"left_out", plan.left_out},
                     {"modules", std::move(modules)}});
   }

@@ -19,7 +19,7 @@ class DeploymentPlan {
   [[nodiscard]] bool empty() const noexcept { return boards_.empty(); }
   // Prints a line for each module, and why the nodes are restarted if they are; once.
   void print(Context& context);
-  // Prints in which tick each board has exchanged its modules.
+  // Prints in which tick each board has exchanged its modules, and taken over its schedule.
   void print_ticks(Context& context) const;
   [[nodiscard]] JsonValue json() const;
 
