@@ -41,6 +41,8 @@ class Follower {
 
   // Reads the next run of a track; `run` is reused. Returns false if there is none yet.
   bool next(std::size_t track, Run& run) { return tracks_[track].next(run); }
+  // Runs that were written on the track so far.
+  [[nodiscard]] std::uint64_t runs(std::size_t track) const noexcept { return tracks_[track].runs(); }
   // Runs of the track that were overwritten before they were read.
   [[nodiscard]] std::uint64_t lost(std::size_t track) const noexcept { return tracks_[track].lost(); }
 

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -52,6 +53,8 @@ class TrackReader {
   // Reads the next run; `run` is reused. Returns false if there is none yet.
   bool next(Run& run);
   [[nodiscard]] std::uint32_t module() const noexcept { return module_; }
+  // Runs that were written so far.
+  [[nodiscard]] std::uint64_t runs() const noexcept { return shared_->runs.load(std::memory_order_relaxed); }
   // Runs that were overwritten before they were read.
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
 

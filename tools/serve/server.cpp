@@ -62,7 +62,8 @@ Server::Server(tools::ServeOptions options, Admission admission, const std::stri
       files_(options_.node, &remote_boards_, kFilesReader),
       sign_in_(options_.node),
       orders_(options_.node),
-      holds_(options_.node) {}
+      holds_(options_.node),
+      history_(options_.node) {}
 
 std::string Server::choose_subprotocol(const Request& request) {
   return serve::choose_subprotocol(all_routes(), request);
@@ -118,6 +119,8 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
       return hand_over(orders_, std::move(match), ticket);
     case Pace::Holds:
       return hand_over(holds_, std::move(match), ticket);
+    case Pace::History:
+      return hand_over(history_, std::move(match), ticket);
     case Pace::Wait:
       return let_wait(match, ticket);
     case Pace::Plant:

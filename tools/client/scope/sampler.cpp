@@ -5,43 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
-#include <set>
+
+#include "tools/client/history/known_tracks.h"
 
 namespace indurop::tools {
 namespace {
 
 using base::Problem;
-
-// Period at which a track is written; tracks without their own rate come last.
-std::int64_t period_of(const RunView& run, std::uint32_t module) {
-  const bool known = module < run.module_count() && run.module(module).period_ns > 0;
-  return known ? run.module(module).period_ns.load() : std::numeric_limits<std::int64_t>::max();
-}
-
-bool has(std::span<const std::uint32_t> indices, std::uint32_t one) {
-  return std::find(indices.begin(), indices.end(), one) != indices.end();
-}
-
-// Returns the tracks on which the variable is known best: those of its writers; else that of the reader that runs most
-// often.
-std::vector<std::size_t> writers_of(const tape::Follower& follower, const RunView& run, std::uint32_t variable) {
-  std::vector<std::size_t> writers;
-  std::optional<std::size_t> reader;
-  for (std::size_t track = 0; track < follower.tracks(); ++track) {
-    if (has(follower.items_of(track).written, variable)) {
-      writers.push_back(track);
-    } else if (has(follower.items_of(track).only_read, variable) &&
-               (!reader || period_of(run, follower.module_of(track)) < period_of(run, follower.module_of(*reader)))) {
-      reader = track;
-    }
-  }
-  if (writers.empty() && reader) {
-    writers.push_back(*reader);
-  }
-  return writers;
-}
 
 }  // namespace
 
@@ -65,9 +35,7 @@ Result<void, Problem> TickSampler::choose_tracks(const RunView& run, const vars:
       return one.schema_index == inputs_[input].variable;
     });
     const auto variable = static_cast<std::uint32_t>(entry - directory.begin());
-    const auto tracks = entry == directory.end() || follower_.variables()[variable].taped == 0
-                            ? std::vector<std::size_t>()
-                            : writers_of(follower_, run, variable);
+    const auto tracks = entry == directory.end() ? std::vector<std::size_t>() : known_tracks(follower_, run, variable);
     if (tracks.empty()) {
       return Problem{fmt::format("{} is too large for the tape; start the node with a larger --tape",
                                  store.schema().variables[inputs_[input].variable].name)};
@@ -80,7 +48,7 @@ Result<void, Problem> TickSampler::choose_tracks(const RunView& run, const vars:
   // The track that runs most often shows up to which time the node has run.
   std::size_t fastest = 0;
   for (std::size_t track = 0; track < follower_.tracks(); ++track) {
-    if (period_of(run, follower_.module_of(track)) < period_of(run, follower_.module_of(fastest))) {
+    if (track_period(run, follower_.module_of(track)) < track_period(run, follower_.module_of(fastest))) {
       fastest = track;
     }
   }

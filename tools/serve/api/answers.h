@@ -51,6 +51,7 @@ Reply messages(Api& api, const Call& call);
 
 Reply variables(Api& api, const Call& call);
 Reply variable(Api& api, const Call& call);
+Reply value_history(Api& api, const Call& call);
 Reply scope(Api& api, const Call& call);
 
 Reply alarms(Api& api, const Call& call);

@@ -12,6 +12,7 @@
 
 #include "core/base/json.h"
 #include "history/alarms/alarm_book.h"
+#include "tools/client/history/value_history.h"
 #include "tools/client/node/known_uses.h"
 #include "tools/serve/audit.h"
 #include "tools/serve/door/access_gate.h"
@@ -54,7 +55,13 @@ class UserBook;
 class Api {
  public:
   Api(const AccessGate& gate, UserBook& users, Audit& audit, LeaseDesk& leases, JogDesk& jogs, ServerFacts facts)
-      : gate_(&gate), users_(&users), audit_(&audit), leases_(&leases), jogs_(&jogs), facts_(std::move(facts)) {}
+      : gate_(&gate),
+        users_(&users),
+        audit_(&audit),
+        leases_(&leases),
+        jogs_(&jogs),
+        facts_(std::move(facts)),
+        history_(facts_.recordings) {}
 
   [[nodiscard]] const AccessGate& gate() const noexcept { return *gate_; }
   [[nodiscard]] UserBook& users() const noexcept { return *users_; }
@@ -65,6 +72,8 @@ class Api {
   // Returns the writers and readers of each variable, read once per run of the board; none for boards of other hosts.
   // Called by the thread that reads files.
   const tools::KnownUses& uses_of(const Board& board);
+  // Called by the thread that reads histories.
+  [[nodiscard]] tools::ValueHistory& history() noexcept { return history_; }
 
  private:
   struct Cached {
@@ -78,6 +87,7 @@ class Api {
   LeaseDesk* leases_;
   JogDesk* jogs_;
   ServerFacts facts_;
+  tools::ValueHistory history_;
   std::map<std::string, Cached, std::less<>> uses_;
 };
 

@@ -47,6 +47,7 @@ std::span<const Route> all_routes() {
       Route{kGet, "/api/v1/boards/{board}/faults", kLook, Pace::Quick, &answers::faults, kReported},
       Route{kGet, "/api/v1/boards/{board}/variables", kLook, Pace::Files, &answers::variables, kReported},
       Route{kGet, "/api/v1/boards/{board}/variables/{name}", kLook, Pace::Files, &answers::variable, kReported},
+      Route{kGet, "/api/v1/boards/{board}/history", kLook, Pace::History, &answers::value_history, kLocalOnly},
       Route{kPost, "/api/v1/boards/{board}/set", kOperate, Pace::Orders, &answers::set, kAsked},
       Route{kGet, "/api/v1/boards/{board}/forces", kLook, Pace::Quick, &answers::forces, kReported},
       Route{kPost, "/api/v1/boards/{board}/force", kTune, Pace::Orders, &answers::force, kAsked},
