@@ -349,6 +349,9 @@ Fault Follower::step(double seconds) noexcept {
     if (fault.ok()) {
       q_ = end;
     }
+    if (keeps_) {
+      keep_path();  // the motion was about to end anyway: nothing of its path remains
+    }
     mode_ = stopping() ? Mode::Run : mode_;
     note_step(moved);
     return fault;

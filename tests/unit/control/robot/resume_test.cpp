@@ -265,6 +265,33 @@ TEST(Resume, Another_stop_on_the_way_back_loses_nothing) {
 }
 
 // Lines: 7 MOVJ H, 8 SPEED, 9 MOVL A, 10 MOVL B, 11 SET, 12 MOVL C.
+// Requested while it brakes, the job is resumed in the first period at standstill. A stop near the end of a motion ends
+// where the motion does.
+TEST(Resume, A_stop_anywhere_in_a_motion_is_resumed_at_once) {
+  bool ended = false;
+  for (int stop = 1; stop < 500 && !ended; ++stop) {
+    Cell cell("MOVJ P1\nWAIT 0.05s\nSET I4 ON\n");
+    ASSERT_TRUE(cell.serve(Service::GroupEnable));
+    cell.in.service.job = 1;
+    cell.ask(Service::JobStart);
+    for (int i = 0; i < stop; ++i) {
+      cell.step();
+    }
+    ended = cell.out.job.state == JobState::Ended;
+    cell.ask(Service::JobStop);
+    cell.step();
+    if (!ended) {
+      cell.ask(Service::JobResume);
+      ASSERT_TRUE(cell.until([&] { return cell.out.done == cell.in.service.number; }));
+      ASSERT_EQ(cell.out.error, ErrorCode::Ok) << stop << ": " << cell.out.job.message;
+      EXPECT_EQ(cell.out.job.state, JobState::Ended) << stop;
+      EXPECT_NEAR(cell.out.command[0], 20, 1e-6) << stop;
+      EXPECT_EQ(cell.values[0], 1) << stop;
+    }
+  }
+  EXPECT_TRUE(ended);
+}
+
 TEST(Resume, Single_steps_go_line_by_line_and_back) {
   Cell cell(kResumePoints + std::string(kLines), 10, 0, true, {}, cell_urdf());
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
