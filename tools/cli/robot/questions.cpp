@@ -20,7 +20,7 @@ namespace {
 constexpr std::int64_t kPollNs = 20'000'000;
 
 // Reads the robot's question. Returns the exit code, after an error message.
-int read_question(Context& context, const vars::Store& store, const RobotChoice& choice, RobotQuestion& to) {
+int fetch_question(Context& context, const vars::Store& store, const RobotChoice& choice, RobotQuestion& to) {
   std::vector<Item> items;
   if (const int code = select_items(context, store, {choice.space + "::ROBOT_QUESTION"}, items); code != kOk) {
     return code;
@@ -40,7 +40,7 @@ int poll_question(Context& context, const vars::Store& store, const RobotChoice&
                   RobotQuestion& to, const Done& done) {
   const std::int64_t end = rt::now_ns() + wait_ns;
   for (;;) {
-    if (const int code = read_question(context, store, choice, to); code != kOk) {
+    if (const int code = fetch_question(context, store, choice, to); code != kOk) {
       return code;
     }
     const std::int64_t now = rt::now_ns();
@@ -102,7 +102,7 @@ int answer_question(Context& context, const RobotChoice& choice, const RobotAnsw
     return report(context.out, store.error());
   }
   RobotQuestion question;
-  if (const int code = read_question(context, *store, choice, question); code != kOk) {
+  if (const int code = fetch_question(context, *store, choice, question); code != kOk) {
     return code;
   }
   if (question.number == 0) {
