@@ -101,18 +101,24 @@ void ScheduleChange::checked() {
   if (is_given_up()) {
     return;
   }
+  std::string error = "the configuration has errors";
   for (const base::Diagnostic& diagnostic : next_.diagnostics) {
     if (diagnostic.severity != base::Diagnostic::Severity::Note) {
       report_.messages.push_back(base::to_string(diagnostic));
     }
+    if (diagnostic.severity == base::Diagnostic::Severity::Error && held_.on) {
+      error = base::to_string(diagnostic);
+    }
   }
   if (!next_.ok) {
-    return refuse(held_.on && !report_.messages.empty() ? report_.messages.front() : "the configuration has errors");
+    return refuse(error);
   }
   make_plan();
   held_.changes = held_.on && plan_.changes;
   report_.restarts = plan_.restarts;
-  for (const ModuleFate& fate : request_.back&& held_.on ? std::vector<ModuleFate>() : plan_.modules) {
+  const bool returns = request_.back && held_.on;  // the report is that of the way there
+  for (std::size_t i = 0; i < plan_.modules.size() && !returns; ++i) {
+    const ModuleFate& fate = plan_.modules[i];
     report_.modules.push_back({fate.module, to_text(fate.kind), fate.text});
   }
   if (!report_.restarts.empty()) {

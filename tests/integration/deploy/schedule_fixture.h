@@ -49,6 +49,17 @@ class ScheduleTest : public ExchangeTest {
     std::ofstream(folder() / "plant.xml") << text_;
     return path("plant.xml");
   }
+  // The number xt::NAME as a board has it.
+  std::int64_t value(const std::string& on, const std::string& name) {
+    const auto store = vars::Store::attach(board(on), vars::Mode::ReadOnly);
+    schema::Variable variable;
+    variable.name = "xt::" + name;
+    std::int64_t read = 0;
+    const auto* const entry = store.ok() ? store.value().find(variable.name_hash()) : nullptr;
+    const bool known =
+        entry != nullptr && store.value().read(*entry, 0, {reinterpret_cast<std::uint8_t*>(&read), sizeof read}).ok();
+    return known ? read : 0;
+  }
   // Brings a file that no board has yet.
   void add_file(const std::string& name, const std::string& version) const {
     std::filesystem::copy_file(std::filesystem::path(EXCHANGED_FOLDER) / (version + ".so"), folder() / (name + ".so"));

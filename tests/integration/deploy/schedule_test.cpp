@@ -110,6 +110,27 @@ TEST_F(Rescheduled, Files_and_schedule_change_in_one_tick) {
   expect_not_restarted();
 }
 
+TEST_F(Rescheduled, What_boards_send_each_other_goes_on_and_is_not_changed_without_a_restart) {
+  const Part watch{"watch", "ticks_a", "10ms", "0ms", 3, ""};  // reads what the press of board a writes
+  start_with({press_of("a")}, {press_of("b"), ticks_of("b"), watch});
+  ASSERT_TRUE(wait_until([&] { return value("b", "a_turns") > 0; }));
+  const Outcome done = deploy(plant_of({press_of("a", "20ms")}, {press_of("b", "20ms"), ticks_of("b"), watch}));
+  ASSERT_EQ(done.code, 0) << done.err;
+  expect_not_restarted();
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t turns = value("b", "a_turns");
+    EXPECT_TRUE(wait_until([&] { return value("b", "a_turns") > turns; }));
+  }
+  add_file("later", "press_a_second");
+  const Outcome fewer = deploy(plant_of({press_of("a", "20ms")}, {press_of("b"), ticks_of("b")}), {"--dry-run"});
+  EXPECT_EQ(planned(fewer.json(), "a", "press"), "restarted") << fewer.out;
+  EXPECT_THAT(fewer.out, HasSubstr("fewer variables would be exchanged with other boards"));
+  const Outcome writer = deploy(
+      plant_of({{"later", "later", "10ms", "0ms", 1, ""}}, {press_of("b"), ticks_of("b"), watch}), {"--dry-run"});
+  EXPECT_THAT(writer.out, HasSubstr("module later is added and writes variable xt::a_turns"));
+  EXPECT_EQ(vars::running_node(board("a")), pids_["a"]);
+}
+
 TEST_F(Rescheduled, A_schedule_that_cannot_be_met_is_refused_and_nothing_changes) {
   start_with({press_of("a"), ticks_of("a")}, {press_of("b"), ticks_of("b")});
   Part slow = press_of("b", "20ms");

@@ -187,6 +187,10 @@ class Changes {
     engine_->join();
   }
 
+  [[nodiscard]] std::uint64_t activity(const std::string& name) const {
+    const std::array<std::uint32_t, 1> module{index_.at(name)};
+    return engine_->activity_of(module);
+  }
   [[nodiscard]] std::uint64_t tick() const { return block_->tick.load(); }
   [[nodiscard]] const std::vector<std::string>& ran(std::uint64_t tick) { return ran_[tick]; }
   [[nodiscard]] const scheduler::ModuleRecord& record(const std::string& name) const {
@@ -385,6 +389,37 @@ TEST_P(FollowingSchedules, No_release_is_lost_although_runs_are_in_progress) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cores, FollowingSchedules, testing::Values(1, 2));
+
+// What the mirror asks before and after it copies what a module writes.
+TEST(WritersActivity, Is_odd_during_a_run_and_counts_the_runs_whichever_schedule_counts) {
+  const auto xml = [](const std::string& period) {
+    const auto module = [](const std::string& name, const std::string& every, const std::string& wcet) {
+      return "<module><filename>./" + name + ".so</filename><name>" + name +
+             "</name><moduletype>thread</moduletype><operationtype>periodic</operationtype><period>" + every +
+             "</period><priority>1</priority><wcet>" + wcet + "</wcet></module>";
+    };
+    return "<root>" + module("quick", "1ms", "10us") + module("slow", period, "700us") + "</root>";
+  };
+  Changes sut(xml("2ms"));
+  for (const char* period : {"4ms", "1ms", "3ms"}) {
+    int odd = 0;
+    std::optional<std::uint64_t> before;  // half the activity, minus the runs
+    for (int i = 0; i < 1'000; ++i) {
+      sut.pass(kMillisecond / 50);
+      const std::uint64_t activity = sut.activity("slow");
+      odd += activity % 2 != 0 ? 1 : 0;
+      if (activity % 2 == 0) {
+        const std::uint64_t now = activity / 2 - sut.record("slow").runs.load();
+        EXPECT_EQ(before.value_or(now), now) << period;
+        before = now;
+      }
+    }
+    EXPECT_GT(odd, 50) << period;
+    EXPECT_TRUE(before) << period;
+    EXPECT_NE(sut.change(xml(period)), kNever);
+  }
+  sut.end();
+}
 
 }  // namespace
 }  // namespace indurop::node
