@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "scheduler/engine_core.h"
 #include "scheduler/execution_order.h"
 #include "scheduler/late_ticks.h"
 #include "scheduler/run_block_setup.h"
@@ -30,18 +31,6 @@ std::int64_t epoch_of(const RunBlock& block) noexcept {
 }
 
 }  // namespace
-
-struct Engine::Core {
-  int number = 0;
-  bool primary = false;
-  CoreTrace trace;
-  // For its tick thread.
-  const Schedule::CoreBands* bands = nullptr;  // of the schedule that counts
-  const Schedule::CoreBands* next = nullptr;   // of the one that was prepared last
-  std::optional<ModuleThread> thread;          // while it runs
-  std::atomic<std::uint64_t> begun{0};         // number of its last tick + 1
-  std::atomic<bool> follows{false};            // it has taken over `next`
-};
 
 Schedule::Parts Engine::schedule_parts() {
   return {block_, kernel_, hooks_, settings_, [this](int number) -> CoreTrace& { return core(number).trace; }};

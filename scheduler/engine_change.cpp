@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scheduler/engine.h"
+#include "scheduler/engine_core.h"
 
 namespace indurop::scheduler {
 namespace {

@@ -66,6 +66,7 @@ Schedule::Schedule(const Parts& parts, std::vector<Member> members)
   (void)core(parts_.settings.primary_core);
   build_periodic(planned);
   build_sporadic(planned);
+  // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): after the cores are known
   gated_ = !parts_.settings.realtime || cores_.size() > 1;
   connect_predecessors(planned);
 }

@@ -63,7 +63,7 @@ class Schedule {
   void publish_priorities() const noexcept;
 
   // Returns the bands of a core, which lives as long as the schedule.
-  [[nodiscard]] const CoreBands& on(int core) noexcept;
+  [[nodiscard]] const CoreBands& on(int number) noexcept;
   [[nodiscard]] std::span<const std::unique_ptr<CoreBands>> cores() const noexcept { return cores_; }
   // Periodic ones in execution order, then after-base, then event handler.
   [[nodiscard]] std::span<const std::unique_ptr<Band>> bands() const noexcept { return bands_; }

@@ -80,7 +80,7 @@ Region& free_region() {
 
 GuardedMapping::GuardedMapping(void* memory, std::size_t bytes, bool writable, std::string_view name) {
   const std::lock_guard guard(registration());
-  region_ = &free_region();
+  region_ = &free_region();  // NOLINT(cppcoreguidelines-prefer-member-initializer): under the lock
   const auto begin = reinterpret_cast<std::uintptr_t>(memory);
   const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   region_->page = page;

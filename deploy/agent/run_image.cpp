@@ -28,7 +28,7 @@ template <class Entry>
 void copy_log(const Entry* from, Entry* to, std::uint64_t count) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t before = from[i].sequence.load(std::memory_order_acquire);
-    std::memcpy(static_cast<void*>(to + i), from + i, sizeof(Entry));
+    std::memcpy(static_cast<void*>(to + i), static_cast<const void*>(from + i), sizeof(Entry));
     std::atomic_thread_fence(std::memory_order_acquire);
     const bool whole = from[i].sequence.load(std::memory_order_relaxed) == before;
     to[i].sequence.store(whole ? before : 0, std::memory_order_relaxed);
@@ -51,8 +51,8 @@ class Image {
     // Whole words, for the alignment of their content.
     std::vector<std::uint64_t> words((end_ + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t));
     auto* const bytes = reinterpret_cast<std::byte*>(words.data());
-    std::memcpy(bytes, &block_, sizeof block_);
-    std::memcpy(bytes + modules, block_.modules(), count * sizeof(scheduler::ModuleRecord));
+    std::memcpy(bytes, static_cast<const void*>(&block_), sizeof block_);
+    std::memcpy(bytes + modules, static_cast<const void*>(block_.modules()), count * sizeof(scheduler::ModuleRecord));
     auto& image = *reinterpret_cast<RunBlock*>(bytes);
     copy_log(block_.at<SlotEntry>(block_.slot_log_offset), image.at<SlotEntry>(slots), block_.slot_log_capacity);
     copy_log(block_.at<OverrunEntry>(block_.overrun_log_offset), image.at<OverrunEntry>(overruns),

@@ -83,7 +83,7 @@ requires std::is_arithmetic_v<T> T property(const char* name, T fallback) {
     auto value = static_cast<double>(fallback);
     fallback = detail::property_real(name, value) ? static_cast<T>(value) : fallback;
   } else if constexpr (std::signed_integral<T>) {
-    auto value = static_cast<std::int64_t>(fallback);
+    auto value = static_cast<std::int64_t>(fallback);  // NOLINT(bugprone-signed-char-misuse): a number
     detail::property_signed(name, std::numeric_limits<T>::min(), std::numeric_limits<T>::max(), value);
     fallback = static_cast<T>(value);
   } else {

@@ -20,6 +20,7 @@ constexpr std::uint64_t to_line(std::uint64_t bytes) noexcept {
 constexpr std::uint64_t kModulesOffset = to_line(sizeof(KeyframeHeader));
 
 // Word by word: another process may be writing or reading them.
+// NOLINTNEXTLINE(readability-non-const-parameter): written through an atomic
 void copy_words(std::uint64_t* to, const std::uint64_t* from, std::uint64_t bytes) noexcept {
   for (std::uint64_t i = 0; i < words_of(bytes); ++i) {
     __atomic_store_n(to + i, __atomic_load_n(from + i, __ATOMIC_RELAXED), __ATOMIC_RELAXED);

@@ -98,9 +98,9 @@ class NetworkLowering {
     }
     ast::Expression before = code_.input(element, element.inputs.front());
     const bool always = make::is_true(before);  // at the rail: only the contact decides
-    ast::Expression closed = *variable;
+    const ast::Expression closed = *variable;
     const ast::Expression power = code_.power(element, make::both(std::move(before), std::move(*variable)));
-    code_.show(FlowPoint::Kind::Closed, {&element, nullptr}, always ? power : std::move(closed));
+    code_.show(FlowPoint::Kind::Closed, {&element, nullptr}, always ? power : closed);
     code_.define(element, nullptr, power);
   }
 

@@ -26,16 +26,16 @@ constexpr std::array<SectionWord, 9> kSections{{{"VAR", ast::Section::Local},
 
 std::optional<ast::Access> access_word(const Token& word) noexcept {
   if (word.is("PUBLIC")) {
-    return std::optional(ast::Access::Public);
+    return ast::Access::Public;
   }
   if (word.is("PRIVATE")) {
-    return std::optional(ast::Access::Private);
+    return ast::Access::Private;
   }
   if (word.is("PROTECTED")) {
-    return std::optional(ast::Access::Protected);
+    return ast::Access::Protected;
   }
   if (word.is("INTERNAL")) {
-    return std::optional(ast::Access::Internal);
+    return ast::Access::Internal;
   }
   return std::nullopt;
 }

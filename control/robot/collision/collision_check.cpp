@@ -22,8 +22,8 @@ CollisionCheck::CollisionCheck(const Clearance& clearance, bool exact)
       rooms_(clearance.pairs().size()),
       next_(clearance.pairs().size()),
       here_(clearance.parts().size()),
-      there_(clearance.parts().size()) {
-  apart_ = exact ? kComeApart : kComeApartSoon;
+      there_(clearance.parts().size()),
+      apart_(exact ? kComeApart : kComeApartSoon) {
   if (exact && clearance.known()) {
     std::vector<Solid> solids;
     std::transform(clearance.parts().begin(), clearance.parts().end(), std::back_inserter(solids),

@@ -19,7 +19,7 @@ class CommandMotion {
   [[nodiscard]] Pose machine_pose(const std::array<double, 8>& numbers, const Command& command,
                                   const Pose& start) const noexcept;
   ErrorCode make_target(const Command& command, const Pose& start, Target& target) const noexcept;
-  ErrorCode make_circle(const Command& command, const Pose& start, MoveCommand& move) const noexcept;
+  ErrorCode make_circle(const Command& command, const Pose& from, MoveCommand& move) const noexcept;
 
   const Robot& robot_;
   const ConveyorTracking& conveyor_;

@@ -80,8 +80,8 @@ void SphericalWrist::with_first(Search& search, double q1, std::uint8_t posture)
   const Eigen::Vector2d reach = Eigen::Vector2d(plane_x_.dot(center), plane_y_.dot(center)) - origin_;
   struct Way {
     Vec3 angles;
-    std::uint8_t posture;
-    double away;
+    std::uint8_t posture = 0;
+    double away = 0;
   };
   std::array<Way, 2> ways;
   std::size_t count = 0;

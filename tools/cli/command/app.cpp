@@ -101,7 +101,7 @@ void add_common_options(base::Options& app, ColorWhen& color, bool& quiet) {
 
 // A program that reads JSON gets an object, also for a failure before anything was printed.
 void print_failure(Context& context, int code) {
-  const auto known =
+  const auto* const known =
       std::find_if(kExitCodes.begin(), kExitCodes.end(), [code](const ExitCode& each) { return each.value == code; });
   JsonValue whole = document();
   whole["error"] = {{"exit_code", code},

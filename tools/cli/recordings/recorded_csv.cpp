@@ -82,10 +82,10 @@ class CsvSheet {
   // Writes the last row too.
   Exported finish() {
     write_rows_before(changed_ns_ + 1);
-    return std::move(out_);
+    return std::move(out);
   }
 
-  Exported out_;
+  Exported out;
 
  private:
   bool wanted(const std::string& topic, std::vector<bool>& found) const {
@@ -128,12 +128,12 @@ class CsvSheet {
   }
 
   void write_row(std::int64_t time) {
-    out_.text += std::to_string(time);
+    out.text += std::to_string(time);
     for (const std::string& cell : cells_) {
-      out_.text += "," + base::csv_field(cell);
+      out.text += "," + base::csv_field(cell);
     }
-    out_.text += '\n';
-    ++out_.count;
+    out.text += '\n';
+    ++out.count;
   }
 
   const CsvOptions& options_;
@@ -157,8 +157,8 @@ Result<Exported, Problem> recorded_csv(const std::filesystem::path& file, const 
   if (auto chosen = sheet.choose(*reader); !chosen) {
     return std::move(chosen).error();
   }
-  sheet.out_.text = sheet.heading();
-  sheet.out_.damages = reader->each([&sheet](const recording::McapMessage& message) { sheet.take(message); });
+  sheet.out.text = sheet.heading();
+  sheet.out.damages = reader->each([&sheet](const recording::McapMessage& message) { sheet.take(message); });
   return sheet.finish();
 }
 

@@ -181,7 +181,7 @@ Joints kdl_torques(const HeavyArm& arm, const Body& held, const Joints& q, const
   }
   const KDL::Wrenches none(chain.getNrOfSegments(), KDL::Wrench::Zero());
   if (solver.CartToJnt(place, speed, change, none, torque) < 0) {
-    torque.data.setConstant(NAN);
+    torque.data.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   Joints result = Joints::Zero();
   result.head(arm.count) = torque.data;

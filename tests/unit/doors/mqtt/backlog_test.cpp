@@ -153,7 +153,7 @@ TEST_F(BacklogTest, A_damaged_record_ends_its_file) {
   const auto read = read_all(sut, true);
   EXPECT_EQ(read, numbers(0, read.size()));
   EXPECT_LT(read.size(), 20U);
-  EXPECT_TRUE(read.size() > 0);
+  EXPECT_FALSE(read.empty());
 }
 
 TEST_F(BacklogTest, Keeps_the_newest_within_its_room) {

@@ -101,7 +101,7 @@ TEST(MqttBoard, Refuses_descriptions_that_do_not_fit) {
 }
 
 TEST(MqttBoard, A_variable_of_very_many_numbers_has_no_leaves) {
-  const auto text = R"({"board":"b","stream":1,"record_size":16441,"quality_offset":16440,"variables":[
+  const std::string text = R"({"board":"b","stream":1,"record_size":16441,"quality_offset":16440,"variables":[
     {"name":"map","offset":40,"unit":"","form":{"kind":"f64","size":8,"dims":[41,50]}}]})";
   EXPECT_THAT(Board::from(*base::Json::parse(text), {})->variables()[0].leaves, testing::IsEmpty());
 }

@@ -15,7 +15,7 @@
 namespace indurop::mqtt {
 namespace {
 
-using std::string_literals::operator""s;
+using std::string_literals::operator""s;  // NOLINT(misc-unused-using-decls): it is used
 
 TEST(SparkplugPayload, Has_the_bytes_of_the_specification) {
   Payload payload;

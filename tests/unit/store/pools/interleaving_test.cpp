@@ -4,7 +4,7 @@
 
 #include "stepped_atomic.h"
 // The atomics come first.
-#include "store/pools/chunks.cpp"
+#include "store/pools/chunks.cpp"  // NOLINT(bugprone-suspicious-include)
 
 #include <gtest/gtest.h>
 

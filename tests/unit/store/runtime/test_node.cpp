@@ -40,11 +40,11 @@ std::string TestNode::next_name() {
   return "rttest-" + std::to_string(::getpid()) + "-" + std::to_string(g_nodes);
 }
 
-TestNode::TestNode(std::vector<TestModule> modules, const schema::Schema& schema, std::uint32_t ring_capacity)
+TestNode::TestNode(const std::vector<TestModule>& modules, const schema::Schema& schema, std::uint32_t ring_capacity)
     : ring_capacity_(ring_capacity) {
   name_ = next_name();
   ++g_nodes;
-  restart(schema, std::move(modules));
+  restart(schema, modules);
 }
 
 TestNode::~TestNode() {

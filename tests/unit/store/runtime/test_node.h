@@ -31,7 +31,7 @@ class TestNode {
  public:
   // The name of the next TestNode, for who must know it before there is one.
   static std::string next_name();
-  explicit TestNode(std::vector<TestModule> modules = {{"m", {}, 1'000'000, {}, ""}},
+  explicit TestNode(const std::vector<TestModule>& modules = {{"m", {}, 1'000'000, {}, ""}},
                     const schema::Schema& schema = sample_schema(), std::uint32_t ring_capacity = 8);
   ~TestNode();
   TestNode(const TestNode&) = delete;

@@ -75,6 +75,7 @@ class FaultyPlant {
     plant.run_until_all_operate(2000);
     plant.run(20);
     plant.events().clear();
+    // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): after the plant operates
     before = plant.master().counters();
   }
   void run(unsigned ticks) {
@@ -161,12 +162,9 @@ class FaultyPlant {
 
  private:
   [[nodiscard]] bool has(std::size_t slave, Problem problem, std::uint32_t detail) const {
-    for (const Event& event : plant.events()) {
-      if (event.slave == slave && event.problem == problem && event.detail == detail) {
-        return true;
-      }
-    }
-    return false;
+    return std::any_of(plant.events().begin(), plant.events().end(), [&](const Event& event) {
+      return event.slave == slave && event.problem == problem && event.detail == detail;
+    });
   }
   [[nodiscard]] bool is_back_after(std::size_t slave, Time time) const {
     for (const Event& event : plant.events()) {

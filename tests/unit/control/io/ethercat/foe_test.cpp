@@ -13,8 +13,6 @@
 namespace indurop::io::ethercat {
 namespace {
 
-using testing::HasSubstr;
-
 class FoeTest : public testing::Test {
  protected:
   FoeTest() {

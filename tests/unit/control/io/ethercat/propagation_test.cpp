@@ -11,11 +11,16 @@
 namespace indurop::io::ethercat {
 namespace {
 
+struct Branch;
 struct Node {
   bool has_clock = true;
-  std::uint32_t clock_start = 0;             // its clock's time when the frame leaves the master
-  std::vector<std::pair<int, Node>> behind;  // port, slave there; in the order 3, 1, 2
-  std::uint32_t cable = 0;                   // to it, ns, each way
+  std::uint32_t clock_start = 0;  // its clock's time when the frame leaves the master
+  std::vector<Branch> behind;     // in the order of ports 3, 1, 2
+  std::uint32_t cable = 0;        // to it, ns, each way
+};
+struct Branch {
+  int port = 0;
+  Node node;
 };
 
 // Sends the frame through a slave and what is behind it; returns when it leaves through port 0.
@@ -73,7 +78,7 @@ class RandomTree {
         Node next = slave(with_dumb);
         grow(next, there - 1, with_dumb);
         slaves -= there;
-        node.behind.emplace_back(port, std::move(next));
+        node.behind.push_back({port, std::move(next)});
       }
     }
   }

@@ -25,8 +25,6 @@ inline Fault random_fault(std::mt19937& random, std::size_t slaves, FaultKind ki
       break;
     case FaultKind::EepromBusy:
     case FaultKind::OtherIdentity:
-      fault.duration = std::chrono::milliseconds(300 + random() % 300);
-      break;
     case FaultKind::SdoRepeated:
       fault.duration = std::chrono::milliseconds(300 + random() % 300);
       break;

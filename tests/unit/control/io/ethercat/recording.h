@@ -116,10 +116,10 @@ class Recording {
     return std::min(place, slaves_.size());
   }
   // The slave with this image, or with the words of its EEPROM that were read.
-  [[nodiscard]] SlaveConfig slave(std::size_t place, std::vector<std::uint8_t> image) const {
+  [[nodiscard]] SlaveConfig slave(std::size_t place, const std::vector<std::uint8_t>& image) const {
     SlaveConfig config = slaves_[place].config;
     EscConfig& esc = config.esc;
-    esc.eeprom = image.empty() ? slaves_[place].eeprom : std::move(image);
+    esc.eeprom = image.empty() ? slaves_[place].eeprom : image;
     const std::uint16_t pdi =
         esc.pdi_control.value_or(esc.eeprom.empty() ? std::uint16_t{0} : load<std::uint16_t>(esc.eeprom, 0));
     constexpr unsigned kClockUnits = 0x0C00;  // SYNC and LATCH
