@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -16,18 +15,10 @@
 
 #include "config/check/check.h"
 #include "config/xml/reader.h"
-#include "node/run/setup.h"
-#include "scheduler/engine.h"
-#include "scheduler/simulated_kernel.h"
-#include "tests/unit/scheduler/fixture.h"
+#include "engine_of_modules.h"
 
 namespace indurop::node {
 namespace {
-
-using scheduler::Engine;
-
-constexpr std::int64_t kMillisecond = 1'000'000;
-constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
 class Chance {
  public:
@@ -129,103 +120,6 @@ std::string random_xml(Chance& random, std::vector<Written> modules, int work_us
   return xml + "</root>\n";
 }
 
-// A node's engine without a node: modules that do nothing but take time.
-class Changes {
- public:
-  explicit Changes(const std::string& xml) {
-    const config::Config config = checked(xml);
-    for (const config::Module& module : config.modules) {
-      index_.emplace(module.name, static_cast<std::uint32_t>(index_.size()));
-      names_.push_back(module.name);
-    }
-    const scheduler::RunBlockSetup setup = make_run_setup(config, check_, "test", {0, true});
-    block_ = scheduler::make_block(setup);
-    scheduler::EngineSettings settings;
-    settings.basic_period_ns = setup.basic_period_ns;
-    settings.order = scheduler::CoreOrder::Data;
-    settings.spin.mode = scheduler::SpinMode::Off;
-    scheduler::Hooks hooks;
-    hooks.context = this;
-    hooks.entering = [](void* context, std::uint32_t module, std::uint64_t tick, std::int64_t) noexcept {
-      auto& self = *static_cast<Changes*>(context);
-      self.ran_[tick].push_back(self.names_[module]);
-    };
-    engine_.emplace(*block_, tasks(config, setup), settings, hooks, kernel_);
-    EXPECT_TRUE(engine_->start(0).ok());
-  }
-
-  void pass(std::int64_t ns) { kernel_.sleep_until(kernel_.now() + std::chrono::nanoseconds(ns)); }
-  // Returns the first tick of the new schedule.
-  std::uint64_t change(const std::string& xml) {
-    const config::Config config = checked(xml);
-    const scheduler::RunBlockSetup setup = make_run_setup(config, check_, "test", {0, true});
-    const Status prepared = engine_->prepare_change(tasks(config, setup));
-    EXPECT_TRUE(prepared.ok());
-    while (engine_->follow_change() == Engine::Change::Starting) {
-      pass(1);
-    }
-    const std::uint64_t next = block_->tick.load();
-    const std::uint64_t slots = block_->slot_count;
-    const std::uint64_t tick = (next + slots - 1) / slots * slots;
-    EXPECT_TRUE(engine_->change_at({tick, slots, tick + 10 * slots}));
-    for (int i = 0; engine_->follow_change() != Engine::Change::None; ++i) {
-      if (engine_->follow_change() ==
-          Engine::Change::Prepared) {  // runs are in progress whenever a macro period begins
-        EXPECT_TRUE(engine_->change_at({block_->tick + 1, 1, block_->tick + 1'000}));
-      }
-      if (i > 10'000) {
-        ADD_FAILURE() << "the change does not end";
-        return kNever;
-      }
-      pass(kMillisecond / 3);
-    }
-    block_->slot_count = static_cast<std::uint64_t>(setup.macro_period_ns / block_->basic_period_ns);
-    return engine_->changed_at();
-  }
-  void end() {
-    engine_->request_stop();
-    engine_->join();
-  }
-
-  [[nodiscard]] std::uint64_t activity(const std::string& name) const {
-    const std::array<std::uint32_t, 1> module{index_.at(name)};
-    return engine_->activity_of(module);
-  }
-  [[nodiscard]] std::uint64_t tick() const { return block_->tick.load(); }
-  [[nodiscard]] const std::vector<std::string>& ran(std::uint64_t tick) { return ran_[tick]; }
-  [[nodiscard]] const scheduler::ModuleRecord& record(const std::string& name) const {
-    return block_->modules()[index_.at(name)];
-  }
-  [[nodiscard]] std::uint64_t lost_ticks() const { return block_->lost_ticks.load(); }
-
- private:
-  config::Config checked(const std::string& xml) {
-    auto read = config::read_config_text(xml, "/module.xml");
-    check_ = config::check_config(read.config, {.files = false, .machine = false});
-    EXPECT_TRUE(read.ok() && check_.ok()) << xml;
-    return std::move(read.config);
-  }
-  std::vector<scheduler::Task> tasks(const config::Config& config, const scheduler::RunBlockSetup& setup) const {
-    auto all = make_tasks(config, check_, setup, 0);
-    set_work_times(all, config, {});
-    for (scheduler::Task& task : all) {
-      task.index = index_.at(config.modules[task.index].name);
-      task.run = [] {};
-      task.condition = []() -> bool { return true; };
-      task.after.clear();
-    }
-    return all;
-  }
-
-  config::CheckResult check_;
-  std::map<std::string, std::uint32_t> index_;
-  std::vector<std::string> names_;
-  scheduler::BlockPointer block_;
-  scheduler::SimulatedKernel kernel_{rt::mono_time(1), {}, {}};
-  std::map<std::uint64_t, std::vector<std::string>> ran_;
-  std::optional<Engine> engine_;
-};
-
 // Returns true if every module is done before its next release, as `indurop check` says.
 bool is_feasible(const std::string& xml) {
   auto read = config::read_config_text(xml, "/module.xml");
@@ -324,7 +218,7 @@ class FollowingSchedules : public testing::TestWithParam<int> {
     return false;
   }
 
-  std::optional<Changes> sut_;
+  std::optional<EngineOfModules> sut_;
   History history_;
   struct Counts {
     std::uint64_t skipped = 0;
@@ -389,37 +283,6 @@ TEST_P(FollowingSchedules, No_release_is_lost_although_runs_are_in_progress) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cores, FollowingSchedules, testing::Values(1, 2));
-
-// What the mirror asks before and after it copies what a module writes.
-TEST(WritersActivity, Is_odd_during_a_run_and_counts_the_runs_whichever_schedule_counts) {
-  const auto xml = [](const std::string& period) {
-    const auto module = [](const std::string& name, const std::string& every, const std::string& wcet) {
-      return "<module><filename>./" + name + ".so</filename><name>" + name +
-             "</name><moduletype>thread</moduletype><operationtype>periodic</operationtype><period>" + every +
-             "</period><priority>1</priority><wcet>" + wcet + "</wcet></module>";
-    };
-    return "<root>" + module("quick", "1ms", "10us") + module("slow", period, "700us") + "</root>";
-  };
-  Changes sut(xml("2ms"));
-  for (const char* period : {"4ms", "1ms", "3ms"}) {
-    int odd = 0;
-    std::optional<std::uint64_t> before;  // half the activity, minus the runs
-    for (int i = 0; i < 1'000; ++i) {
-      sut.pass(kMillisecond / 50);
-      const std::uint64_t activity = sut.activity("slow");
-      odd += activity % 2 != 0 ? 1 : 0;
-      if (activity % 2 == 0) {
-        const std::uint64_t now = activity / 2 - sut.record("slow").runs.load();
-        EXPECT_EQ(before.value_or(now), now) << period;
-        before = now;
-      }
-    }
-    EXPECT_GT(odd, 50) << period;
-    EXPECT_TRUE(before) << period;
-    EXPECT_NE(sut.change(xml(period)), kNever);
-  }
-  sut.end();
-}
 
 }  // namespace
 }  // namespace indurop::node

@@ -49,7 +49,7 @@ struct TopSample {
     double load = 0;  // share of a core since the previous sample; in the first one the mean
   };
   std::vector<Module> modules;
-  std::vector<TopEvent> events;  // overruns, commands, output of modules; newest last
+  std::vector<TopEvent> events;        // overruns, commands, output of modules; newest last
   std::vector<std::string> questions;  // that robots ask their operators
   std::vector<std::string> troubles;
   alarms::AlarmCounts alarms;
