@@ -273,7 +273,7 @@ void ScheduleChange::settle() {
   previous_ = config_of_schedule(parts_.config, run);
   grid_ = next_grid_;
   arrivals_.settle();
-  held_.counts = !request_.back;
+  held_.counts = waits_for_tick();
   for (std::size_t i = 0; i < plan_.indices.size(); ++i) {
     settle_module(i, plan_.indices[i]);
   }
