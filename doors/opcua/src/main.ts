@@ -8,6 +8,7 @@ import { read_options, UsageError, type Options } from "./options";
 import { read_token, ServeClient } from "./serve/http";
 import type { ServerStatus } from "./serve/types";
 import { Alarms } from "./server/alarms";
+import { History } from "./server/history";
 import { watch_items } from "./server/items";
 import { make_server, set_permissions, warn_about } from "./server/server";
 import { Users } from "./server/users";
@@ -29,13 +30,14 @@ async function run(options: Options): Promise<void> {
   const namespace = address_space.getNamespace(set_permissions(server)) as Namespace;
   const boards = new Boards(client, options.rate_hz);
   const by_node = new Map<string, PartNode>();
+  const types = new Types(address_space, namespace);
   const space: Space = {
-    address_space, namespace, by_node,
-    types: new Types(address_space, namespace),
+    address_space, namespace, by_node, types,
     follow: boards.follow,
     rate_hz: options.rate_hz,
     writable: about.write,
     write: make_write(client, users, by_node),
+    read_history: new History(client, by_node, (board) => boards.trees.get(board)?.layout, types.construct).make_read(),
   };
   boards.space = space;
   const alarms = new Alarms(client, users, boards, space);

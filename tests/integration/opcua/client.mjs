@@ -51,7 +51,7 @@ const actions = {
   async connect({ url, mode, policy, user, password, ca, revoked }) {
     client = OPCUAClient.create({
       endpointMustExist: false, securityMode: MessageSecurityMode[mode ?? "None"], securityPolicy: SecurityPolicy[policy ?? "None"],
-      connectionStrategy: { maxRetry: 0 }, requestedSessionTimeout: 60_000, clientCertificateManager: ca ? await strict(ca, revoked) : manager,
+      connectionStrategy: { maxRetry: 0 }, requestedSessionTimeout: 60_000, defaultTransactionTimeout: 60_000, clientCertificateManager: ca ? await strict(ca, revoked) : manager,
     });
     try {
       await client.connect(url);
@@ -121,6 +121,31 @@ const actions = {
     item.on("changed", (values) => events.push(Object.fromEntries([...fields, "ConditionId"].map((name, i) => [name, plain(values[i].value)]))));
   },
   async events() { return events; },
+  // One answer of HistoryRead; times are texts of ns since 1970, null: not said.
+  async history({ node, start, end, most, bounds, modified, point, release, range, details }) {
+    const date = (ns) => {
+      if (ns === null || ns === undefined) return null;
+      const at = new Date(Number(BigInt(ns) / 1_000_000n));
+      at.picoseconds = Number(BigInt(ns) % 1_000_000n) * 1000;
+      return at;
+    };
+    const request = new ua.HistoryReadRequest({
+      historyReadDetails: details === "atTime" ? new ua.ReadAtTimeDetails({ reqTimes: [date(start)] }) : new ua.ReadRawModifiedDetails({
+        isReadModified: modified ?? false, startTime: date(start), endTime: date(end), numValuesPerNode: most ?? 0, returnBounds: bounds ?? false,
+      }),
+      timestampsToReturn: TimestampsToReturn.Both,
+      releaseContinuationPoints: release ?? false,
+      nodesToRead: [{ nodeId: node, continuationPoint: point ? Buffer.from(point, "hex") : undefined, indexRange: range ? new ua.NumericRange(range) : undefined }],
+    });
+    const [result] = (await session.historyRead(request)).results;
+    return {
+      code: result.statusCode.name, point: result.continuationPoint?.length ? result.continuationPoint.toString("hex") : null,
+      values: (result.historyData?.dataValues ?? []).map((one) => ({
+        code: one.statusCode.name, value: plain(one.value?.value), dims: plain(one.value?.dimensions),
+        ns: `${BigInt(one.sourceTimestamp.getTime()) * 1_000_000n + BigInt(Math.floor((one.sourcePicoseconds ?? 0) / 1000))}`,
+      })),
+    };
+  },
   async refresh() {
     return (await session.call({ objectId: "i=2782", methodId: "i=3875", inputArguments: [{ dataType: "UInt32", value: subscription.subscriptionId }] })).statusCode.name;
   },

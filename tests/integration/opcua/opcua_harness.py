@@ -89,12 +89,12 @@ class Setting(harness.Setting):
         super().__init__(pathlib.Path(programs).absolute(), fake_node)
         self.log = self.folder / "opcua.log"
 
-    def start_real_node(self):
+    def start_real_node(self, *options):
         """A node that runs the module with a variable of each kind."""
         module = pathlib.Path(os.environ["OPCUA_MODULE"])
         shutil.copy(module, self.folder)
         (self.folder / "module.xml").write_text(MODULE.format(file=module.name))
-        child = self.start(self.programs / "indurop", "run", "module.xml", "--node", self.node, "-q", cwd=self.folder,
+        child = self.start(self.programs / "indurop", "run", "module.xml", "--node", self.node, "-q", *options, cwd=self.folder,
                            stderr=subprocess.DEVNULL)
         wait_for(lambda: self.get_count() > 10, "the node to count")
         return child

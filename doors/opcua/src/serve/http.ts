@@ -8,7 +8,7 @@ import https from "node:https";
 const TIMEOUT_MS = 15_000;
 const MOST_SOCKETS = 8;
 
-export const status = { unauthorized: 401, forbidden: 403, not_found: 404, wrong_value: 422, locked: 423, no_answer: 504 };
+export const status = { bad_request: 400, unauthorized: 401, forbidden: 403, not_found: 404, conflict: 409, wrong_value: 422, locked: 423, no_answer: 504 };
 
 export class Refused extends Error {
   // code: HTTP status, 0: the server does not answer.
@@ -39,11 +39,17 @@ export class ServeClient {
     return this.request<T>("GET", path, undefined, token);
   }
 
+  // The same with times in ns as texts: numbers of JavaScript would round them.
+  get_exact<T>(path: string): Promise<T> {
+    return this.request<T>("GET", path, undefined, undefined, (text) => text.replace(/"(\w+_ns)": ?(-?\d+)/g, '"$1":"$2"'));
+  }
+
   post<T>(path: string, body?: unknown, token?: string): Promise<T> {
     return this.request<T>("POST", path, body === undefined ? undefined : JSON.stringify(body), token);
   }
 
-  private request<T>(method: string, path: string, body: string | undefined, token = this.token): Promise<T> {
+  private request<T>(method: string, path: string, body: string | undefined, token = this.token,
+    prepare: (text: string) => string = (text) => text): Promise<T> {
     const headers: Record<string, string> = { Accept: "application/json" };
     if (token) headers.Authorization = `Bearer ${token}`;
     if (body !== undefined) headers["Content-Type"] = "application/json";
@@ -56,7 +62,7 @@ export class ServeClient {
         answer.on("error", (error) => reject(new Refused(0, error.message)));
         answer.on("end", () => {
           try {
-            resolve(body_of<T>(answer.statusCode ?? 0, Buffer.concat(parts).toString()));
+            resolve(body_of<T>(answer.statusCode ?? 0, prepare(Buffer.concat(parts).toString())));
           } catch (error) {
             reject(error);
           }

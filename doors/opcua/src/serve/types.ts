@@ -61,6 +61,18 @@ export interface ServerStatus {
   users: boolean;
 }
 
+// Times are texts: see get_exact().
+export interface PastValue {
+  time_ns: string;
+  bytes: string;  // hexadecimal
+}
+
+export interface HistoryPage {
+  layout: string;
+  next: string | null;
+  variables: { before: PastValue | null; values: PastValue[]; gaps: { from_ns: string; to_ns: string }[] }[];
+}
+
 export interface Client {
   user: string;
   role: "unknown" | "look" | "operate" | "tune" | "program" | "administer";

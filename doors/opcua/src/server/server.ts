@@ -13,6 +13,7 @@ import {
 
 import { log } from "../log";
 import { VERSION, type Options } from "../options";
+import { MOST_VALUES } from "./history";
 import type { Users } from "./users";
 
 export const NAMESPACE = "urn:indurop:boards";
@@ -21,7 +22,8 @@ const MESSAGE_BYTES = 8 * 1024 * 1024;
 const CHUNK_BYTES = 64 * 1024;
 const CHUNKS = 256;
 const NODES_PER_REQUEST = 10_000;
-const READ_ONLY = PermissionType.Browse | PermissionType.Read | PermissionType.ReceiveEvents | PermissionType.Call;
+const NODES_PER_HISTORY_READ = 100;
+const READ_ONLY = PermissionType.Browse | PermissionType.Read | PermissionType.ReadHistory | PermissionType.ReceiveEvents | PermissionType.Call;
 
 export function is_loopback(address: string): boolean {
   return address === "localhost" || address === "::1" || address.startsWith("127.");
@@ -71,9 +73,11 @@ function limits(options: Options): object {
       operationLimits: {
         maxNodesPerRead: NODES_PER_REQUEST, maxNodesPerBrowse: NODES_PER_REQUEST, maxNodesPerWrite: 1000,
         maxMonitoredItemsPerCall: NODES_PER_REQUEST, maxNodesPerMethodCall: 100, maxNodesPerRegisterNodes: NODES_PER_REQUEST,
+        maxNodesPerHistoryReadData: NODES_PER_HISTORY_READ, maxNodesPerHistoryReadEvents: NODES_PER_HISTORY_READ,
         maxNodesPerTranslateBrowsePathsToNodeIds: NODES_PER_REQUEST, maxNodesPerNodeManagement: 1,
       },
     },
+    historyServerCapabilities: { accessHistoryDataCapability: true, maxReturnDataValues: MOST_VALUES },
     maxConnectionsPerEndpoint: options.sessions * 2,
     transportSettings: {
       adjustTransportLimits: (hello: any) => ({

@@ -77,13 +77,14 @@ export class Boards {
   private async read_variables(board: string): Promise<void> {
     try {
       const list = await this.client.get<VariableList>(board_path(board, "/variables?values=false"));
+      const { here } = await this.client.get<{ here?: false }>(board_path(board));
       let tree = this.trees.get(board);
       if (!tree) {
         tree = new BoardTree(board, this.space);
         this.trees.set(board, tree);
       }
       this.follow.forget_board(board);
-      await tree.update(list.variables, list.layout);
+      await tree.update(list.variables, list.layout, here !== false);
       this.note([...notes_of(list.variables), ...this.space.types.notes].map((note) => `${board}: ${note}`));
       this.follow.renew_board(board);
       await this.on_update(tree);

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is used of node-opcua beyond its documented interface. Its version is fixed in package-lock.json; an update begins here.
 
-import type { DataValue, NumericRange, SessionContext, StatusCode, UAVariable } from "node-opcua";
+import type { DataValue, HistoryReadDetails, HistoryReadResult, NumericRange, SessionContext, StatusCode, UAVariable } from "node-opcua";
 
 export interface InnerVariable extends UAVariable {
   // Called for a value that is read now, by Read and for the first value of a monitored item.
   refreshFunc?: (this: UAVariable, done: (error: Error | null, value: DataValue) => void) => void;
   // Called for Write, after session and node were found.
   writeAttribute: any;
+  // Called for HistoryRead, after the node was found.
+  _historyRead: any;
   // The newest value. Monitored items learn another one by the event "value_changed"; node-opcua's own way would also
   // touch the parts of a structure, which have events of their own here.
   $dataValue: DataValue;
@@ -22,6 +24,9 @@ export interface WriteRequest {
 
 export type WriteAttribute = (this: UAVariable, context: SessionContext, request: WriteRequest,
   done: (error: Error | null, code: StatusCode) => void) => void;
+
+export type HistoryRead = (this: UAVariable, context: SessionContext, details: HistoryReadDetails, range: NumericRange, encoding: unknown,
+  continuation: { continuationPoint?: Buffer; releaseContinuationPoints?: boolean }, done: (error: Error | null, result: HistoryReadResult) => void) => void;
 
 export interface InnerItem {
   // The item reports changes, at most once in samplingInterval, and has no timer that samples.

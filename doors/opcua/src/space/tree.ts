@@ -8,7 +8,7 @@ import { has_too_many_parts, part_of, parts_below, type Part } from "../model/pa
 import { unit_of } from "../model/units";
 import type { VariableDescription } from "../serve/types";
 import type { Follow } from "./follow";
-import { put_value, type InnerVariable, type WriteAttribute } from "./internals";
+import { put_value, type HistoryRead, type InnerVariable, type WriteAttribute } from "./internals";
 import type { Types } from "./types";
 import { unknown_node, Variable, type PartNode } from "./variable";
 
@@ -21,6 +21,7 @@ export interface Space {
   rate_hz: number;
   writable: boolean;
   write: WriteAttribute;
+  read_history: HistoryRead;
 }
 
 // What can still not be shown as it is, for people.
@@ -39,6 +40,7 @@ function same_properties(a: Part, b: Part): boolean {
 
 export class BoardTree {
   layout = "";
+  private has_history = false;
   readonly folder: UAObject;
   private readonly variables = new Map<string, Variable>();
   private readonly folders = new Map<string, UAObject>();
@@ -58,7 +60,9 @@ export class BoardTree {
     return this.space.by_node.get(this.id_text(path))?.node;
   }
 
-  async update(list: VariableDescription[], layout: string): Promise<void> {
+  // has_history: the board is on the server's own host.
+  async update(list: VariableDescription[], layout: string, has_history: boolean): Promise<void> {
+    this.has_history = has_history;
     const parts = new Map(list.map((one) => [one.name, part_of(one)]));
     for (const part of parts.values()) for (const one of parts_below(part)) this.space.types.of(one.form);
     await this.space.types.register();
@@ -140,9 +144,9 @@ export class BoardTree {
   }
 
   private add_node(variable: Variable, part: Part, parent: UAObject | UAVariable): UAVariable {
-    const { namespace, types, by_node, write, rate_hz, writable } = this.space;
+    const { namespace, types, by_node, write, read_history, rate_hz, writable } = this.space;
     const dims = part.form.dims ?? [];
-    const access = AccessLevelFlag.CurrentRead | (writable ? AccessLevelFlag.CurrentWrite : 0);
+    const access = AccessLevelFlag.CurrentRead | (writable ? AccessLevelFlag.CurrentWrite : 0) | (this.has_history ? AccessLevelFlag.HistoryRead : 0);
     const node = namespace.addVariable({
       componentOf: parent,
       browseName: part.label,
@@ -153,12 +157,14 @@ export class BoardTree {
       arrayDimensions: dims.length ? dims : undefined,
       accessLevel: access,
       userAccessLevel: access,
+      historizing: this.has_history,
       minimumSamplingInterval: 1000 / rate_hz,
       typeDefinition: part.range ? "AnalogItemType" : part.unit ? "AnalogUnitType" : "BaseDataVariableType",
     } as any) as unknown as InnerVariable;
     const one: PartNode = { part, node, variable, items: 0, parent, shown: true };
     node.refreshFunc = refresh;
     node.writeAttribute = write;
+    node._historyRead = read_history;
     inner.set(node, { one, follow: this.space.follow });
     variable.parts.set(part.path, one);
     by_node.set(node.nodeId.toString(), one);
