@@ -233,7 +233,10 @@ int number_in(const char* name, int otherwise) {
 TEST(Random_questions, Are_answered_as_the_model_says) {
   const int first = number_in("INDUROP_ROBOT_SEED", 1);
   const int jobs = number_in("INDUROP_ROBOT_JOBS", 20);
-  int taken = 0, rejected = 0, late = 0, stopped = 0;
+  int taken = 0;
+  int rejected = 0;
+  int late = 0;
+  int stopped = 0;
   for (int i = 0; i < jobs && !HasFailure(); ++i) {
     Dialogue dialogue(static_cast<unsigned>(first + i));
     SCOPED_TRACE(fmt::format("seed {}", first + i));
