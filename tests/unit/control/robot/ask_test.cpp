@@ -262,7 +262,7 @@ TEST_F(Ask_robot, Stands_while_it_asks) {
   EXPECT_EQ(cell->values[0], 4);
 }
 
-TEST_F(Ask_robot, Takes_an_answer_once_and_none_from_before_its_start) {
+TEST_F(Ask_robot, Takes_an_answer_once_and_none_from_before_it_started) {
   cell = std::make_unique<Cell>("ASK n = \"n\" 1 TO 9\nSET O = n\nASK n = \"n\" 1 TO 9\nSET O = n\n");
   EXPECT_EQ(question().acknowledged, 0U);
   Cell before("ASK n = \"n\" 1 TO 9\n");

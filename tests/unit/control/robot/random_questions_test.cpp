@@ -106,7 +106,11 @@ class Dialogue {
       if (answers) {
         ASSERT_EQ(cell.out.job.question.error, expected) << cell.out.job.question.reason << ", period " << i << "\n"
                                                          << text_;
-        (expected == ErrorCode::Ok ? taken : rejected) += 1;
+        if (expected == ErrorCode::Ok) {
+          ++taken;
+        } else {
+          ++rejected;
+        }
       }
       check(cell);
       ASSERT_FALSE(testing::Test::HasFailure()) << "period " << i << "\n" << text_;
