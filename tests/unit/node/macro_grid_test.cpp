@@ -35,9 +35,9 @@ TEST(MacroGrid, Is_as_near_to_the_wall_clock_as_modules_that_stay_allow) {
   std::minstd_rand random(1);
   const auto below = [&random](std::uint64_t limit) { return random() % limit; };
   for (int i = 0; i < 2'000; ++i) {
-    const MacroGrid before{1 + below(40), 0};
+    const MacroGrid before{1 + below(30), 0};
     const MacroGrid from{before.ticks, below(before.ticks)};
-    const std::uint64_t ticks = 1 + below(40);
+    const std::uint64_t ticks = 1 + below(30);  // both meet within a second
     const auto epoch = static_cast<std::int64_t>(below(100'000'000)) - 50'000'000;
     const MacroGrid sut = following_grid(from, ticks, kBasic, epoch);
     const std::uint64_t shared = std::gcd(from.ticks, ticks);

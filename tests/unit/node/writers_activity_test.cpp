@@ -21,7 +21,7 @@ TEST(WritersActivity, Is_odd_during_a_run_and_counts_the_runs_whichever_schedule
     return "<root>" + module("quick", "1ms", "10us") + module("slow", period, "700us") + "</root>";
   };
   EngineOfModules sut(xml("2ms"));
-  sut.pass(50 * kMillisecond);  // no module runs before the warm-up has ended
+  sut.pass(500 * kMillisecond);  // no module runs before tick 0
   for (const char* period : {"4ms", "1ms", "3ms"}) {
     int odd = 0;
     std::optional<std::uint64_t> before;  // half the activity, minus the runs
