@@ -5,12 +5,10 @@
 
 #include <indurop/result.h>
 
-#include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 
-#include "store/vars/call_layout.h"
+#include "store/vars/call_area.h"
 #include "store/vars/store.h"
 
 namespace indurop::runtime {
@@ -29,24 +27,15 @@ class Attachment {
   // Returns true if a newer block has replaced this one. Real-time safe.
   [[nodiscard]] bool retired() const noexcept { return store().retired(); }
 
-  // Returns null if the node does not know the function. Real-time safe.
-  [[nodiscard]] vars::CallFunction* function(std::uint64_t name_hash) const noexcept;
-  [[nodiscard]] std::uint32_t index_of(const vars::CallFunction& function) const noexcept {
-    return static_cast<std::uint32_t>(&function - functions_.data());
-  }
-  // The function whose wake word the server of `function` sleeps on.
-  [[nodiscard]] vars::CallFunction& wake_of(const vars::CallFunction& function) const noexcept;
-  [[nodiscard]] vars::CallSlot& slot(const vars::CallFunction& function, std::size_t index) const noexcept;
+  [[nodiscard]] const vars::CallArea& calls() const noexcept { return calls_; }
 
  private:
   explicit Attachment(vars::Store&& store);
-  void find_functions();
 
   mutable std::optional<vars::Store> owned_;
   vars::Store* borrowed_ = nullptr;
   std::string node_;
-  std::byte* block_ = nullptr;
-  std::span<vars::CallFunction> functions_;  // sorted by name hash; empty if the block's data is inconsistent
+  vars::CallArea calls_;
 };
 
 }  // namespace indurop::runtime

@@ -17,9 +17,9 @@
 #include "core/rt/guard.h"
 #include "core/rt/shared_mutex.h"
 #include "store/runtime/attachment.h"
-#include "store/runtime/call_state.h"
 #include "store/runtime/host.h"
 #include "store/runtime/process.h"
+#include "store/vars/call_state.h"
 
 namespace indurop::runtime {
 
@@ -29,6 +29,9 @@ using detail::FunctionOffer;
 using vars::CallFunction;
 using vars::CallSlot;
 using vars::CallState;
+using vars::sequence_of;
+using vars::state_of;
+using vars::word_of;
 
 constexpr std::int64_t kStoreCheckNs = 100'000'000;  // interval at which an idle server checks for a new store
 constexpr int kTriesBeforeComplaint = 5;
@@ -160,7 +163,7 @@ class FunctionServers::Server {
 
   void take_over(Served& served) {
     const FunctionOffer& offer = *served.offer;
-    CallFunction* function = attachment_->function(offer.name_hash);
+    CallFunction* function = attachment_->calls().function(offer.name_hash);
     if (function == nullptr || function->type_hash != offer.type_hash || function->args_size != offer.args_size ||
         function->result_size != offer.result_size) {
       Process::get().report(fmt::format(
@@ -185,14 +188,14 @@ class FunctionServers::Server {
       waking_ = function;  // all functions of this server share the wake word of the first one
       wake_.store(&function->wake, std::memory_order_release);
     }
-    function->wake_index.store(attachment_->index_of(*waking_), std::memory_order_release);
+    function->wake_index.store(attachment_->calls().index_of(*waking_), std::memory_order_release);
     function->server_pid.store(::getpid(), std::memory_order_relaxed);
   }
 
   // Answers the calls that a dead server was working on; frees slots that no caller waits for.
   void clean_up(CallFunction& function) noexcept {
     for (std::size_t i = 0; i < vars::kCallSlots; ++i) {
-      CallSlot& slot = attachment_->slot(function, i);
+      CallSlot& slot = attachment_->calls().slot(function, i);
       std::uint64_t word = slot.state.load(std::memory_order_acquire);
       if (state_of(word) == CallState::Running) {
         answer(slot, sequence_of(word), Errc::Dead);
@@ -206,7 +209,7 @@ class FunctionServers::Server {
     bool any = false;
     for (const Served& served : served_) {
       for (std::size_t i = 0; served.function != nullptr && i < vars::kCallSlots; ++i) {
-        CallSlot& slot = attachment_->slot(*served.function, i);
+        CallSlot& slot = attachment_->calls().slot(*served.function, i);
         std::uint64_t word = slot.state.load(std::memory_order_acquire);
         if (state_of(word) == CallState::Ready &&
             slot.state.compare_exchange_strong(word, word_of(sequence_of(word), CallState::Running))) {

@@ -57,6 +57,9 @@ void declare_serve_options(base::Options& app, ServeOptions& options) {
   app.add("--metrics", "GLOB", options.metrics, "Include the values of these variables or parts of them in /metrics")
       .one_at_a_time()
       .completes(base::Completion::Variable);
+  app.add("--call", "GLOB", options.calls,
+          "Let clients with the right to write call these shared functions (default: none)")
+      .one_at_a_time();
   app.add("--web", "DIR", options.web, "Folder of the page (default: the installed one)")
       .completes(base::Completion::Folder);
   app.add("--audit", "FILE", options.audit, "Write the audit log to this file (default: in the state folder)")
@@ -106,6 +109,9 @@ std::vector<std::string> words_of(const ServeOptions& options) {
   value("--foxglove-hz", fmt::format("{}", options.foxglove_hz));
   for (const std::string& name : options.metrics) {
     value("--metrics", name);
+  }
+  for (const std::string& name : options.calls) {
+    value("--call", name);
   }
   value("--web", options.web.string());
   value("--audit", options.audit.string());

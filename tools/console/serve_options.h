@@ -33,6 +33,7 @@ struct ServeOptions {
   std::vector<std::string> origins;
   std::vector<std::string> foxglove;  // names of variables; none: all
   std::vector<std::string> metrics;   // variables whose values are in /metrics
+  std::vector<std::string> calls;     // shared functions that clients may call
   double foxglove_hz = 50;
   std::uint64_t clients = 64;
   bool quiet = false;

@@ -27,6 +27,7 @@ ServerFacts facts_of(const tools::ServeOptions& options, const std::string& vers
   facts.recordings = options.recordings;
   facts.plc = !options.plc.empty();
   facts.metrics = options.metrics;
+  facts.calls = options.calls;
   return facts;
 }
 
@@ -63,7 +64,8 @@ Server::Server(tools::ServeOptions options, Admission admission, const std::stri
       sign_in_(options_.node),
       orders_(options_.node),
       holds_(options_.node),
-      history_(options_.node) {}
+      history_(options_.node),
+      calls_(options_.node) {}
 
 std::string Server::choose_subprotocol(const Request& request) {
   return serve::choose_subprotocol(all_routes(), request);
@@ -121,6 +123,8 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
       return hand_over(holds_, std::move(match), ticket);
     case Pace::History:
       return hand_over(history_, std::move(match), ticket);
+    case Pace::Calls:
+      return hand_over(calls_, std::move(match), ticket);
     case Pace::Wait:
       return let_wait(match, ticket);
     case Pace::Plant:

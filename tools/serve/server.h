@@ -85,6 +85,7 @@ class Server final : public House {
   Helper orders_;
   Helper holds_;
   Helper history_;
+  Helper calls_;
   struct Plant {
     Plant(const deploy::LinkSettings& settings, const std::string& node, const RemotePoller& boards_of_it)
         : watch(settings), boards(node, &boards_of_it, kPlantReader, &watch) {}

@@ -8,12 +8,14 @@ import { read_options, UsageError, type Options } from "./options";
 import { read_token, ServeClient } from "./serve/http";
 import type { ServerStatus } from "./serve/types";
 import { Alarms } from "./server/alarms";
+import { make_call } from "./server/call";
 import { History } from "./server/history";
 import { watch_items } from "./server/items";
 import { make_server, set_permissions, warn_about } from "./server/server";
 import { Users } from "./server/users";
 import { make_write } from "./server/write";
 import { Boards } from "./space/boards";
+import { Methods } from "./space/methods";
 import type { Space } from "./space/tree";
 import { Types } from "./space/types";
 import type { PartNode } from "./space/variable";
@@ -40,6 +42,7 @@ async function run(options: Options): Promise<void> {
     read_history: new History(client, by_node, (board) => boards.trees.get(board)?.layout, types.construct).make_read(),
   };
   boards.space = space;
+  boards.methods = new Methods(space, make_call(client, users, types.construct));
   const alarms = new Alarms(client, users, boards, space);
   await boards.begin();
   if (options.check) {

@@ -146,6 +146,22 @@ const actions = {
       })),
     };
   },
+  // Calls a method; words of structures are objects, `types` says others than those of the method.
+  async invoke({ object, method, words, types }) {
+    const { inputArguments, outputArguments } = await session.getArgumentDefinition(method);
+    const inputs = [];
+    for (const [i, word] of words.entries()) {
+      const dataType = inputArguments[i]?.dataType ?? ua.resolveNodeId("Int32");
+      const structure = word !== null && typeof word === "object" && !Array.isArray(word);
+      if (structure) inputs.push({ dataType: DataType.ExtensionObject, value: await session.constructExtensionObject(dataType, word) });
+      else inputs.push({ dataType: DataType[types?.[i]] ?? (dataType.namespace === 0 ? dataType.value : DataType.Int32), value: word });
+    }
+    const answer = await session.call({ objectId: object, methodId: method, inputArguments: inputs });
+    return {
+      code: answer.statusCode.name, outputs: (answer.outputArguments ?? []).map((one) => plain(one.value)),
+      inputs: inputArguments.map(({ name }) => name), results: outputArguments.map(({ name }) => name),
+    };
+  },
   async refresh() {
     return (await session.call({ objectId: "i=2782", methodId: "i=3875", inputArguments: [{ dataType: "UInt32", value: subscription.subscriptionId }] })).statusCode.name;
   },

@@ -34,8 +34,8 @@ def test_a_write_needs_the_role_and_names_the_user(setting):
     for client in (leo, anonymous):
         assert client.read(gain)["value"] == 2.5
         assert client.do("write", node=gain, type="Double", value=3) == "BadUserAccessDenied"
-        assert client.read(gain, attribute="UserAccessLevel")["value"] == 1, "shown as one to read only"
-    assert anna.read(gain, attribute="UserAccessLevel")["value"] == 3
+        assert client.read(gain, attribute="UserAccessLevel")["value"] == 5, "shown as one to read only, now and in the past"
+    assert anna.read(gain, attribute="UserAccessLevel")["value"] == 7
     assert value_of(server, setting, "gain") == 2.5
     log = setting.log.read_text()
     assert "the write of leo was refused: " in log and "operate" in log and "the write of anonymous was refused" in log, log

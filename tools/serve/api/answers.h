@@ -52,6 +52,8 @@ Reply messages(Api& api, const Call& call);
 Reply variables(Api& api, const Call& call);
 Reply variable(Api& api, const Call& call);
 Reply value_history(Api& api, const Call& call);
+Reply functions(Api& api, const Call& call);
+Reply call_function(Api& api, const Call& call);
 Reply scope(Api& api, const Call& call);
 
 Reply alarms(Api& api, const Call& call);

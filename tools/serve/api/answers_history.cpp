@@ -7,21 +7,13 @@
 #include <vector>
 
 #include "tools/client/history/value_history.h"
+#include "tools/client/text/hexadecimal.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/boards/board.h"
 #include "tools/serve/boards/variable.h"
 
 namespace indurop::serve::answers {
 namespace {
-
-std::string in_hexadecimal(const std::vector<std::uint8_t>& bytes) {
-  std::string text;
-  text.reserve(2 * bytes.size());
-  for (const std::uint8_t byte : bytes) {
-    fmt::format_to(std::back_inserter(text), "{:02x}", byte);
-  }
-  return text;
-}
 
 // How values are written: as JSON, or as the bytes of the board's memory.
 class ValueWriter {
@@ -32,7 +24,7 @@ class ValueWriter {
     base::Json out = base::Json::object();
     out["time_ns"] = value.time_ns;
     if (bytes_) {
-      out["bytes"] = in_hexadecimal(value.bytes);
+      out["bytes"] = tools::in_hexadecimal(value.bytes);
     } else {
       out["value"] = tools::raw_value((*items_)[value.item].place.type, value.bytes);
     }

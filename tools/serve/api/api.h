@@ -14,6 +14,7 @@
 #include "history/alarms/alarm_book.h"
 #include "tools/client/history/value_history.h"
 #include "tools/client/node/known_uses.h"
+#include "tools/serve/api/call_pace.h"
 #include "tools/serve/audit.h"
 #include "tools/serve/door/access_gate.h"
 
@@ -41,6 +42,7 @@ struct ServerFacts {
   bool plant = false;                // remote boards are served too
   bool plc = false;                  // a PLC program is served too
   std::vector<std::string> metrics;  // patterns of variables whose values are metrics
+  std::vector<std::string> calls;    // patterns of shared functions that clients may call
   std::int64_t started_wall_ns = 0;
   std::int64_t started_ns = 0;
   std::function<std::vector<ClientFigures>()> clients;
@@ -74,6 +76,8 @@ class Api {
   const tools::KnownUses& uses_of(const Board& board);
   // Called by the thread that reads histories.
   [[nodiscard]] tools::ValueHistory& history() noexcept { return history_; }
+  // Called by the thread that calls shared functions.
+  [[nodiscard]] CallPace& calls() noexcept { return calls_; }
 
  private:
   struct Cached {
@@ -88,6 +92,7 @@ class Api {
   JogDesk* jogs_;
   ServerFacts facts_;
   tools::ValueHistory history_;
+  CallPace calls_;
   std::map<std::string, Cached, std::less<>> uses_;
 };
 

@@ -8,7 +8,7 @@ import https from "node:https";
 const TIMEOUT_MS = 15_000;
 const MOST_SOCKETS = 8;
 
-export const status = { bad_request: 400, unauthorized: 401, forbidden: 403, not_found: 404, conflict: 409, wrong_value: 422, locked: 423, no_answer: 504 };
+export const status = { bad_request: 400, unauthorized: 401, forbidden: 403, not_found: 404, conflict: 409, wrong_value: 422, locked: 423, unavailable: 503, no_answer: 504 };
 
 export class Refused extends Error {
   // code: HTTP status, 0: the server does not answer.

@@ -73,6 +73,14 @@ export interface HistoryPage {
   variables: { before: PastValue | null; values: PastValue[]; gaps: { from_ns: string; to_ns: string }[] }[];
 }
 
+export interface FunctionDescription {
+  name: string;
+  description: string;
+  arguments: { name: string; form: Form; unit: string; description: string }[];
+  result: Form | null;  // null: none
+  served: boolean;
+}
+
 export interface Client {
   user: string;
   role: "unknown" | "look" | "operate" | "tune" | "program" | "administer";

@@ -2,10 +2,11 @@
 // All boards: what the stream says about them becomes nodes and values.
 
 import { log, message_of } from "../log";
-import { board_path, type ServeClient } from "../serve/http";
+import { board_path, Refused, status, type ServeClient } from "../serve/http";
 import { Stream } from "../serve/stream";
-import type { StreamBoard, VariableList } from "../serve/types";
+import type { FunctionDescription, StreamBoard, VariableList } from "../serve/types";
 import { Follow } from "./follow";
+import type { Methods } from "./methods";
 import { BoardTree, notes_of, type Space } from "./tree";
 
 const RETRY_MS = 2000;
@@ -21,6 +22,7 @@ export class Boards {
   private readonly noted = new Set<string>();
   private sweeping: NodeJS.Timeout | undefined;
   space!: Space;
+  methods!: Methods;
 
   constructor(private readonly client: ServeClient, rate_hz: number) {
     this.stream = new Stream(client, {
@@ -85,12 +87,23 @@ export class Boards {
       }
       this.follow.forget_board(board);
       await tree.update(list.variables, list.layout, here !== false);
+      await this.methods.update(tree, here === false ? [] : await this.functions_of(board));
       this.note([...notes_of(list.variables), ...this.space.types.notes].map((note) => `${board}: ${note}`));
       this.follow.renew_board(board);
       await this.on_update(tree);
     } catch (error) {
       log(`${board}: its variables cannot be read: ${message_of(error)}`);
       setTimeout(() => void this.update(board, "unknown"), RETRY_MS);
+    }
+  }
+
+  // None of a server of an earlier release.
+  private async functions_of(board: string): Promise<FunctionDescription[]> {
+    try {
+      return (await this.client.get<{ functions: FunctionDescription[] }>(board_path(board, "/functions"))).functions;
+    } catch (error) {
+      if (error instanceof Refused && error.code === status.not_found) return [];
+      throw error;
     }
   }
 

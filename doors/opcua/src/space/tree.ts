@@ -133,7 +133,7 @@ export class BoardTree {
     for (const one of [...variable.parts.values()].reverse()) {
       if (!paths.has(one.part.path)) this.withdraw_part(variable, one);
     }
-    this.place_part(variable, part, this.namespace_folder(part.path));
+    this.place_part(variable, part, this.folder_of(part.path));
     if (variable.monitored.size > 0) this.space.follow.want(variable);
   }
 
@@ -212,13 +212,14 @@ export class BoardTree {
     return node;
   }
 
-  private namespace_folder(path: string): UAObject {
+  // The folder of the namespace of a full name.
+  folder_of(path: string): UAObject {
     const at = path.lastIndexOf("::");
     if (at < 0) return this.folder;
     const name = path.slice(0, at);
     let folder = this.folders.get(name);
     if (!folder) {
-      folder = this.space.namespace.addFolder(this.namespace_folder(name), {
+      folder = this.space.namespace.addFolder(this.folder_of(name), {
         browseName: name.slice(name.lastIndexOf(":") + 1), nodeId: this.id_text(name),
       });
       this.folders.set(name, folder);

@@ -8,16 +8,16 @@
 
 #include "store/vars/call_layout.h"
 
-namespace indurop::runtime {
+namespace indurop::vars {
 
-constexpr std::uint64_t word_of(std::uint64_t sequence, vars::CallState state) noexcept {
+constexpr std::uint64_t word_of(std::uint64_t sequence, CallState state) noexcept {
   return sequence << 8U | static_cast<std::uint64_t>(state);
 }
 constexpr std::uint64_t sequence_of(std::uint64_t word) noexcept {
   return word >> 8U;
 }
-constexpr vars::CallState state_of(std::uint64_t word) noexcept {
-  return static_cast<vars::CallState>(word & 0xFFU);
+constexpr CallState state_of(std::uint64_t word) noexcept {
+  return static_cast<CallState>(word & 0xFFU);
 }
 
-}  // namespace indurop::runtime
+}  // namespace indurop::vars
