@@ -169,8 +169,9 @@ def test_says_what_is_not_known(setting):
     # It is killed, and keeps what it did in a black box when it comes back.
     setting.end(node, how=9)
     last = time.time_ns()
+    reached = value_of(setting, "past::count")
     back = start(setting)
-    wait_for(lambda: value_of(setting, "past::count") > 100, "the node to count again")
+    wait_for(lambda: value_of(setting, "past::count") > reached + 100, "the node to count again")
     whole, now = settled(server, setting, begin)
     one = whole["past::count"]
     inner = [gap for gap in one["gaps"] if gap[0] > begin]
