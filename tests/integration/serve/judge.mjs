@@ -32,10 +32,11 @@ const bodies = {
   shelveAlarms: {all: true, for_ns: 1_000_000_000},
   unshelveAlarms: {all: true},
 };
+const queries = {valueHistory: "?name=gain&from_ns=1&to_ns=1800000000000000000"};
 const parts = {user: "ana", board, module: "modify", name: "knu::Robot::joints[1]"};
-// Orders to modules: the node of this test answers none, it has no tape, and
+// Orders to modules: the node of this test answers none, it has no tape and no functions, and
 // the server shows no plant and no PLC program. Names of recipes are no names of variables.
-const unanswered = new Set(["startModule", "stopModule", "restartModule", "schedule", "scope", "plant", "plantHistory", "plantDifference", "plantRollback", "beginJog", "keepJog", "endJog", "plc", "plcLive", "recording", "recordedValues", "recipe", "saveRecipe", "loadRecipe", "removeRecipe"]);
+const unanswered = new Set(["startModule", "stopModule", "restartModule", "schedule", "scope", "plant", "plantHistory", "plantDifference", "plantRollback", "beginJog", "keepJog", "endJog", "plc", "plcLive", "recording", "recordedValues", "recipe", "saveRecipe", "loadRecipe", "removeRecipe", "callFunction"]);
 const take_lease = async () => (await (await fetch(`${address}/api/v1/boards/${board}/force`, {
   method: "POST",
   headers: {Authorization: `Bearer ${token}`, "Content-Type": "application/json"},
@@ -47,7 +48,8 @@ for (const [pattern, methods] of Object.entries(described.paths)) {
     if (method === "parameters") continue;
     if (operation.operationId === "renewLease") parts.lease = await take_lease();
     for (const wrong of [false, true]) {
-      const where = pattern.replace(/\{(\w+)\}/g, (_, name) => encodeURIComponent(wrong ? "no such thing" : parts[name]));
+      const where = pattern.replace(/\{(\w+)\}/g, (_, name) => encodeURIComponent(wrong ? "no such thing" : parts[name]))
+        + (queries[operation.operationId] ?? "");
       if (unanswered.has(operation.operationId) && (!wrong || !pattern.includes("{")) && operation.operationId !== "schedule") continue;
       const answer = await fetch(address + where, {
         method: method.toUpperCase(),
