@@ -85,7 +85,9 @@ bool Repeater::start(const ReplayedModules& modules) {
       run_.modules()[module->index].state.store(ModuleState::Stopped);
     }
   }
-  if (!phases_.call_all("start", &ModuleDescriptor::start)) {
+  const bool started = phases_.call_all("start", &ModuleDescriptor::start);
+  console_.report(rt::MonoClock::now(), false);  // the reason, before the node ends
+  if (!started) {
     console_.error("a module could not be started: nothing was run");
     return false;
   }
