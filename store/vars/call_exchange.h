@@ -34,7 +34,7 @@ struct Caller {
 
 // Calls the function and waits for the answer. Errors: those of find_call_server(); Busy (all slots are in use),
 // Timeout, and that of the function (Failed).
-Errc exchange_call(const CallArea& area, CallFunction& function, const CallBytes& bytes, Caller& caller) noexcept;
+Errc exchange_call(const CallArea& area, CallFunction& function, const CallBytes& call, Caller& caller) noexcept;
 
 // Releases the slot of a thread whose call was interrupted by a fault.
 void release_call(Caller& caller) noexcept;
