@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/hexadecimal.h"
 #include "core/base/read_file.h"
 
 namespace indurop::keys {
@@ -43,13 +44,7 @@ std::string Digest::finish() {
   std::array<std::uint8_t, EVP_MAX_MD_SIZE> raw{};
   unsigned int length = 0;
   (void)::EVP_DigestFinal_ex(impl_->context.get(), raw.data(), &length);
-  constexpr const char* kHex = "0123456789abcdef";
-  std::string text;
-  for (unsigned int i = 0; i < length; ++i) {
-    text += kHex[raw[i] >> 4U];
-    text += kHex[raw[i] & 15U];
-  }
-  return text;
+  return base::in_hexadecimal({raw.data(), length});
 }
 
 std::string digest_of(std::string_view text) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/hexadecimal.h"
 #include "core/schema/json_names.h"
 #include "core/schema/schema.h"
 
@@ -12,17 +13,6 @@ namespace indurop::schema {
 namespace {
 
 using nlohmann::ordered_json;
-
-std::string to_hex(const std::vector<std::uint8_t>& bytes) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string out;
-  out.reserve(bytes.size() * 2);
-  for (const std::uint8_t byte : bytes) {
-    out += kDigits[byte >> 4U];
-    out += kDigits[byte & 15U];
-  }
-  return out;
-}
 
 ordered_json number_json(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(value > 0 ? "inf" : "-inf");
@@ -103,12 +93,12 @@ ordered_json variable_json(const Variable& variable) {
     out["maxage_ns"] = variable.maxage_ns;
   }
   if (!variable.initial.empty()) {
-    out["initial"] = to_hex(variable.initial);
+    out["initial"] = base::in_hexadecimal(variable.initial);
   } else if (variable.given) {
     out["given"] = true;
   }
   if (!variable.fallback.empty()) {
-    out["fallback"] = to_hex(variable.fallback);
+    out["fallback"] = base::in_hexadecimal(variable.fallback);
   }
   if (!variable.source.empty()) {
     out["source"] = variable.source;

@@ -216,17 +216,21 @@ bool touches(const vars::Force& force, const Item& item) noexcept {
          begin < force.offset + force.size;
 }
 
-bool overlay(const vars::Force& force, const Item& item, std::span<std::uint8_t> bytes) noexcept {
-  if (!touches(force, item)) {
-    return false;
-  }
+bool overlay(std::span<const vars::Force> forces, const Item& item, std::span<std::uint8_t> bytes) noexcept {
   const std::size_t item_begin = item.place.offset;
-  const std::size_t begin = std::max<std::size_t>(force.offset, item_begin);
-  const std::size_t end = std::min<std::size_t>(force.offset + force.size, item_begin + bytes.size());
-  for (std::size_t i = begin; i < end; ++i) {
-    bytes[i - item_begin] = force.bytes()[i - force.offset];
+  bool any = false;
+  for (const vars::Force& force : forces) {
+    if (!touches(force, item)) {
+      continue;
+    }
+    any = true;
+    const std::size_t begin = std::max<std::size_t>(force.offset, item_begin);
+    const std::size_t end = std::min<std::size_t>(force.offset + force.size, item_begin + bytes.size());
+    for (std::size_t i = begin; i < end; ++i) {
+      bytes[i - item_begin] = force.bytes()[i - force.offset];
+    }
   }
-  return true;
+  return any;
 }
 
 }  // namespace indurop::operate

@@ -65,8 +65,8 @@ void write_over(const Assignment& one, std::span<std::uint8_t> bytes);
 // Returns whether the forced part is inside the item; whether the two overlap.
 bool lies_in(const vars::Force& force, const Item& item) noexcept;
 bool touches(const vars::Force& force, const Item& item) noexcept;
-// Writes what the force holds into bytes that were read of the item, as far as the two overlap; returns whether they
-// do. A force is in the table some milliseconds before the variable has its value: who reports both uses this.
-bool overlay(const vars::Force& force, const Item& item, std::span<std::uint8_t> bytes) noexcept;
+// Writes what the forces hold into bytes that were read of the item, where they overlap; returns whether one does. A
+// force is in the table some milliseconds before the variable has its value: reports of both use this.
+bool overlay(std::span<const vars::Force> forces, const Item& item, std::span<std::uint8_t> bytes) noexcept;
 
 }  // namespace indurop::operate

@@ -47,9 +47,9 @@ void indurop_c_get(const Ref* ref, std::size_t offset, void* to, std::size_t siz
     return;
   }
   auto* const ring = static_cast<RingHeader*>(entry);
-  const std::size_t stride = indurop::abi::slot_stride(ref->value_size);
-  if (!indurop::detail::try_copies(ring, stride, to, at, size)) {
-    indurop::vars::read_slow(*ring, to, at, static_cast<std::uint32_t>(size));
+  const auto length = static_cast<std::uint32_t>(size);
+  if (!indurop::vars::try_read(*ring, ref->value_size, at, to, length)) {
+    indurop::vars::read_slow(*ring, to, at, length);
   }
 }
 

@@ -42,13 +42,7 @@ def main():
         add_job(pathlib.Path(folder))
         cell = AskingCell(options, folder)
         cell.node = "web_question"
-        try:
-            cell.indurop("clean", "--node", cell.node)
-            cell.start_node()
-            cell.start_server()
-            return cell.drive("question.mjs", cell.node)
-        finally:
-            cell.end()
+        return cell.run("question.mjs")
 
 
 if __name__ == "__main__":

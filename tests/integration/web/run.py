@@ -66,19 +66,23 @@ class Cell(PageServer):
          "stop-server": self.stop_server, "start-tour": self.start_tour, "power-on": self.power_on, "automatic": self.automatic,
          "kill-server": self.kill_server, "record": self.record, "remove-node": self.remove_node}[word]()
 
+    def run(self, script):
+        """Runs the cell and its server as long as the script drives a browser; returns its exit code."""
+        try:
+            self.indurop("clean", "--node", self.node)
+            self.start_node()
+            self.start_server()
+            return self.drive(script, self.node)
+        finally:
+            self.end()
+
 
 def main():
     options = prepared(__doc__, "--cell", "--io-module")
     with tempfile.TemporaryDirectory() as folder:
         copy_configuration(str(options.cell), str(options.io_module), folder)
         cell = Cell(options, folder)
-        try:
-            cell.indurop("clean", "--node", cell.node)
-            cell.start_node()
-            cell.start_server()
-            return cell.drive("page.mjs", cell.node)
-        finally:
-            cell.end()
+        return cell.run("page.mjs")
 
 
 if __name__ == "__main__":

@@ -45,10 +45,10 @@ bool PageBuilder::changes(const HistoryValue& value) const noexcept {
 }
 
 void PageBuilder::take_value(HistoryValue& value) {
-  if (!changes(value)) {
+  const std::uint64_t digest = digest_of(value.bytes);
+  if (std::exchange(position_.seen[value.item], digest) == digest) {
     return;
   }
-  position_.seen[value.item] = digest_of(value.bytes);
   if (value.time_ns < from_ns_) {
     page_.before[value.item] = std::move(value);
     return;

@@ -147,6 +147,16 @@ class HistorySources {
   std::vector<File> files_;
 };
 
+// Adds values before the history that are older than what was read of recordings.
+void add_taped_before(const HistorySources& sources, std::size_t items, std::int64_t from_ns, PageBuilder& page) {
+  for (std::uint32_t item = 0; item < items; ++item) {
+    auto before = page.knows(item) ? std::nullopt : sources.taped_before(item, from_ns);
+    if (before) {
+      page.set_before(std::move(*before));
+    }
+  }
+}
+
 // What lies beyond the time up to which the findings are complete is left to the next page.
 void cut_at_completion(HistoryFindings& found) {
   std::erase_if(found.values, [&](const HistoryValue& value) { return value.time_ns >= found.complete_ns; });
@@ -188,11 +198,8 @@ HistoryPage ValueHistory::read(const std::string& node, const vars::Store& store
   const RecordedRequest limits{nullptr, {}, {}, 0, request.most, kMostHistoryMessages, from};
   const std::vector<std::int64_t> borders = sources.borders(span, from);
   for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
-    for (std::uint32_t item = 0; borders[i] == from && !request.position && item < request.items.size(); ++item) {
-      auto before = page.knows(item) ? std::nullopt : sources.taped_before(item, from);
-      if (before) {
-        page.set_before(std::move(*before));
-      }
+    if (borders[i] == from && !request.position) {
+      add_taped_before(sources, request.items.size(), from, page);
     }
     HistoryFindings found = sources.read({borders[i], borders[i + 1]}, limits);
     cut_at_completion(found);

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "control/plc/st/value_literal.h"
+#include "core/base/hexadecimal.h"
 #include "core/rt/clock.h"
 #include "store/operate/call.h"
-#include "tools/client/text/hexadecimal.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/api/write.h"
 #include "tools/serve/boards/local_board.h"
@@ -92,7 +92,7 @@ base::Json result_json(const schema::Function& function, const std::vector<std::
   if (operate::is_void(function)) {
     return {};
   }
-  return as_bytes ? base::Json(tools::in_hexadecimal(bytes)) : base::Json(tools::raw_value(function.result, bytes));
+  return as_bytes ? base::Json(base::in_hexadecimal(bytes)) : base::Json(tools::raw_value(function.result, bytes));
 }
 
 }  // namespace

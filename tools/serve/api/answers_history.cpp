@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/hexadecimal.h"
 #include "tools/client/history/value_history.h"
-#include "tools/client/text/hexadecimal.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/boards/board.h"
 #include "tools/serve/boards/variable.h"
@@ -24,7 +24,7 @@ class ValueWriter {
     base::Json out = base::Json::object();
     out["time_ns"] = value.time_ns;
     if (bytes_) {
-      out["bytes"] = tools::in_hexadecimal(value.bytes);
+      out["bytes"] = base::in_hexadecimal(value.bytes);
     } else {
       out["value"] = tools::raw_value((*items_)[value.item].place.type, value.bytes);
     }

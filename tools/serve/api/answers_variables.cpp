@@ -28,10 +28,8 @@ base::Json variable_json(const vars::Store& store, const tools::Item& item, cons
   Quality quality = quality_of(store, item);
   if (values) {
     auto bytes = operate::read(store, item);
-    for (const vars::Force& force : forces) {
-      if (bytes) {
-        operate::overlay(force, item, *bytes);
-      }
+    if (bytes) {
+      operate::overlay(forces, item, *bytes);
     }
     quality = bytes ? quality : Quality::Unread;
     out["value"] = bytes ? tools::raw_value(item.place.type, *bytes) : base::Json();

@@ -67,10 +67,7 @@ void Feed::read(const vars::Store& store) {
     const tools::Item& item = items_[i];
     bytes.resize(item.place.type.size());
     const bool fine = store.read(*item.entry, item.place.offset, bytes).ok();
-    forced_[i] = false;
-    for (const vars::Force& force : forces) {
-      forced_[i] = operate::overlay(force, item, bytes) || forced_[i];
-    }
+    forced_[i] = operate::overlay(forces, item, bytes);
     const bool other = fine && record_.set_value(i, bytes);
     changed_[i] = other || quality_[i] == Quality::Unread;
     quality_[i] = fine ? quality_of(store, item) : Quality::Unread;

@@ -132,7 +132,7 @@ TEST_F(Operate, A_force_that_is_in_the_table_but_not_yet_in_the_variable_is_repo
   const auto overlaid = [&](const std::string& name) {
     const auto item = find(*store_, name);
     std::vector<std::uint8_t> bytes(item->place.type.size());  // as before the force: zeros
-    const bool touched = overlay(forces[0], *item, bytes);
+    const bool touched = overlay(forces, *item, bytes);
     return std::pair(touched, schema::format_value(item->place.type, bytes));
   };
   EXPECT_EQ(overlaid("cell::axis"), std::pair(true, std::string("{x: 0, y: 2.5}")));

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace indurop::tools {
+namespace indurop::base {
 
 // Two lower-case digits for each byte.
 inline std::string in_hexadecimal(std::span<const std::uint8_t> bytes) {
@@ -21,4 +21,4 @@ inline std::string in_hexadecimal(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-}  // namespace indurop::tools
+}  // namespace indurop::base
