@@ -5,8 +5,8 @@
 
 namespace indurop::robot {
 
-Fault CollisionsAhead::step(bool carried) noexcept {
-  const bool alone = carried || robot_.axes.any_busy();
+Fault CollisionsAhead::step(bool off_path) noexcept {
+  const bool alone = off_path || robot_.axes.any_busy();
   if (!alone || robot_.axes.any_displaced() || !robot_.tool.places().clearance().known() ||
       robot_.states.is(GroupState::Homing)) {
     begun_ = false;

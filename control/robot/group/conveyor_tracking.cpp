@@ -7,6 +7,7 @@
 
 #include "control/robot/group/fault_text.h"
 #include "control/robot/group/pose_numbers.h"
+#include "control/robot/group/torque_now.h"
 
 namespace indurop::robot {
 
@@ -258,7 +259,8 @@ Fault ConveyorTracking::carry(Joints& q) noexcept {
   if ((robot_.tip(q).position - pose.position).norm() > kExact) {
     return {ErrorCode::Unreachable};
   }
-  if (const Fault heavy = too_heavy(q); !heavy.ok()) {
+  // The path was planned where the product was; where the belt moves it, the arm may need more torque.
+  if (const Fault heavy = too_heavy(robot_, q); !heavy.ok()) {
     return heavy;
   }
   if (tracking_.leaves() && tracking_.at_rest() && robot_.follower.idle() && !held_) {
@@ -266,25 +268,6 @@ Fault ConveyorTracking::carry(Joints& q) noexcept {
     robot_.follower.reset(q);
     pace_ = 1;
     speed_ = 0;
-  }
-  return {};
-}
-
-// Returns whether an axis has not enough torque there. The path was planned for the arm where the product was; the belt
-// moves it to where it may need more torque.
-Fault ConveyorTracking::too_heavy(const Joints& q) const noexcept {
-  if (!robot_.tool.dynamics().limited()) {
-    return {};
-  }
-  const Joints velocity = (q - robot_.axes.last()) / robot_.period;
-  const Joints acceleration = (velocity - robot_.axes.last_speed()) / robot_.period;
-  const Joints needed =
-      robot_.tool.dynamics().torques(q, velocity, acceleration) + robot_.tool.dynamics().friction(velocity);
-  for (int i = 0; i < robot_.count(); ++i) {
-    const double most = robot_.tool.dynamics().effort()[i];
-    if (most > 0 && std::abs(needed[i]) > most) {
-      return {ErrorCode::Torque, i + 1};
-    }
   }
   return {};
 }

@@ -72,7 +72,6 @@ class ConveyorTracking {
   void steer() noexcept;
   void end_tracking() noexcept;
   void lose_product(const char* why) noexcept;
-  [[nodiscard]] Fault too_heavy(const Joints& q) const noexcept;
 
   Robot& robot_;
   GroupPort& group_;

@@ -7,23 +7,24 @@ namespace indurop::robot {
 
 Group::Group(GroupParts parts)
     : robot_(std::move(parts)),
-      plans_(robot_),
+      correction_(robot_),
+      plans_(robot_, correction_),
       mode_(robot_),
       torques_(robot_, *this),
-      resuming_(robot_, *this, plans_),
+      resuming_(robot_, *this, plans_, correction_),
       shelf_(robot_, *this, plans_, resuming_),
       conveyor_(robot_, *this, plans_),
       queue_(robot_, *this, plans_, conveyor_),
       jogging_(robot_, *this, plans_),
-      gate_(robot_, *this, mode_, conveyor_),
+      gate_(robot_, *this, mode_, {conveyor_, correction_}),
       power_(robot_, *this, torques_),
-      stops_(robot_, *this, gate_, conveyor_, power_),
-      job_motions_(robot_, plans_, resuming_, shelf_, torques_),
+      stops_(robot_, *this, gate_, {conveyor_, correction_}, power_),
+      job_motions_(robot_, plans_, resuming_, shelf_, torques_, correction_),
       services_(robot_, *this, {plans_, resuming_, conveyor_, queue_, mode_, stops_, power_, job_motions_}),
       service_(robot_, *this, plans_, services_),
       answers_(robot_.job),
       commands_(robot_, service_, queue_, conveyor_, stops_),
-      overrides_(robot_, conveyor_),
+      overrides_(robot_, conveyor_, correction_),
       reloading_(robot_, *this, plans_, gate_.clear(), torques_),
       breakdown_(robot_, *this),
       motion_report_(robot_, conveyor_) {
@@ -127,6 +128,7 @@ void Group::drop_aside() noexcept {
 }
 
 void Group::end_motion() noexcept {
+  correction_.stand();
   robot_.states.end_motion();
   queue_.end_interrupt(ErrorCode::Ok);
   jogging_.end();

@@ -19,6 +19,7 @@
 #include "control/robot/group/motion_queue.h"
 #include "control/robot/group/motion_report.h"
 #include "control/robot/group/overrides.h"
+#include "control/robot/group/path_correction.h"
 #include "control/robot/group/plans.h"
 #include "control/robot/group/power.h"
 #include "control/robot/group/reloading.h"
@@ -90,6 +91,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   using GroupPort::trip;
 
   Robot robot_;
+  PathCorrection correction_;
   Plans plans_;
   ModeGuard mode_;
   TorqueWatch torques_;

@@ -6,10 +6,35 @@ namespace indurop::robot {
 // A hard stop keeps the limits of the joints, and not those of torques.
 void JobMotions::halt() noexcept {
   if (robot_.tool.places().dynamics() == nullptr) {
-    robot_.follower.stop_hard(1);
+    robot_.follower.stop_hard(correction_.path_share());
   } else {
     robot_.follower.stop();
   }
+}
+
+double JobMotions::tip_speed() const noexcept {
+  const Jacobian jacobian = robot_.tool.arm().jacobian(robot_.commanded());
+  return (jacobian * robot_.axes.last_speed()).head<3>().norm();
+}
+
+bool JobMotions::begin_correction(const CorrectionWay& way) noexcept {
+  if (!settled() || plans_.holds_forgotten()) {
+    return false;
+  }
+  resuming_.forget_steps();
+  correction_.begin(way);
+  return true;
+}
+
+bool JobMotions::end_correction() noexcept {
+  if (!settled() || plans_.holds_forgotten()) {
+    return false;
+  }
+  correction_.end();
+  robot_.follower.reset(robot_.commanded());
+  plans_.disconnect();
+  resuming_.forget_steps();
+  return true;
 }
 
 bool JobMotions::take_tool(int tool) noexcept {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "control/robot/group/interrupt_shelf.h"
+#include "control/robot/group/path_correction.h"
 #include "control/robot/group/plans.h"
 #include "control/robot/group/resuming.h"
 #include "control/robot/group/robot.h"
@@ -13,14 +14,17 @@ namespace indurop::robot {
 
 class JobMotions final : public MotionPort {
  public:
-  JobMotions(Robot& robot, Plans& plans, Resuming& resuming, InterruptShelf& shelf, TorqueWatch& torques) noexcept
-      : robot_(robot), plans_(plans), resuming_(resuming), shelf_(shelf), torques_(torques) {}
+  JobMotions(Robot& robot, Plans& plans, Resuming& resuming, InterruptShelf& shelf, TorqueWatch& torques,
+             PathCorrection& correction) noexcept
+      : robot_(robot), plans_(plans), resuming_(resuming), shelf_(shelf), torques_(torques), correction_(correction) {}
 
   [[nodiscard]] bool ready() const noexcept override { return plans_.ahead().has_room(); }
   // An interrupted job keeps what was to be planned.
   [[nodiscard]] bool settled() const noexcept override {
-    return (resuming_.aside() || plans_.ahead().empty()) && plans_.free() && robot_.follower.idle();
+    return (resuming_.aside() || plans_.ahead().empty()) && plans_.free() && robot_.follower.idle() &&
+           correction_.at_rest();
   }
+  [[nodiscard]] bool is_moving() const noexcept override { return !robot_.follower.at_rest(); }
   Fault move(const MoveCommand& command) noexcept override {
     plans_.ahead().add(command);
     return {};
@@ -28,8 +32,12 @@ class JobMotions final : public MotionPort {
   void halt() noexcept override;
   bool take_tool(int tool) noexcept override;
   bool take_load(int load) noexcept override;
+  bool begin_correction(const CorrectionWay& way) noexcept override;
+  bool end_correction() noexcept override;
+  void correct(const Vec3& shift) noexcept override { correction_.want(shift); }
   [[nodiscard]] PathPlace place() const noexcept override { return robot_.follower.path_place(); }
 
+  [[nodiscard]] double tip_speed() const noexcept override;
   [[nodiscard]] Joints commanded() const noexcept override { return robot_.commanded(); }
   [[nodiscard]] Joints measured() const noexcept override { return robot_.axes.measured(); }
   bool step_aside() noexcept override { return shelf_.step_aside(); }
@@ -44,6 +52,7 @@ class JobMotions final : public MotionPort {
   Resuming& resuming_;
   InterruptShelf& shelf_;
   TorqueWatch& torques_;
+  PathCorrection& correction_;
 };
 
 }  // namespace indurop::robot

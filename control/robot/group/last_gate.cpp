@@ -15,7 +15,7 @@ bool LastGate::leaves_workspace() const noexcept {
   }
   const Vec3 last = robot_.tip(robot_.axes.passed()).position;
   const Vec3 next = robot_.tip(robot_.commanded()).position;
-  return box.left(last, next) || ((robot_.axes.any_busy() || conveyor_.on()) && !rests_inside(next));
+  return box.left(last, next) || ((robot_.axes.any_busy() || off_path_.any()) && !rests_inside(next));
 }
 
 // Returns whether the tool comes to rest inside the box if all axes brake at once.
@@ -48,7 +48,7 @@ void LastGate::check_axes() noexcept {
 }
 
 void LastGate::check_clear() noexcept {
-  if (const Fault fault = clear_.step(conveyor_.on()); !fault.ok()) {
+  if (const Fault fault = clear_.step(off_path_.any()); !fault.ok()) {
     FaultText why;
     describe(fault, robot_.tool.places().clearance(), why);
     group_.trip(fault.code, 0, 1);
@@ -66,7 +66,7 @@ void LastGate::pass() noexcept {
   if (!braking_ && leaves_workspace()) {
     group_.fall_off(ErrorCode::Workspace, 0);
   }
-  if (!braking_ && mode_.tip_too_fast(conveyor_.on())) {
+  if (!braking_ && mode_.tip_too_fast(off_path_.any())) {
     group_.fall_off(ErrorCode::Speed, 0);
   }
   if (!braking_) {

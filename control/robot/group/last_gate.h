@@ -5,9 +5,9 @@
 #pragma once
 
 #include "control/robot/group/collisions_ahead.h"
-#include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/group_port.h"
 #include "control/robot/group/mode_guard.h"
+#include "control/robot/group/off_path.h"
 #include "control/robot/group/robot.h"
 #include "control/robot/path/joint_brake.h"
 
@@ -15,8 +15,8 @@ namespace indurop::robot {
 
 class LastGate {
  public:
-  LastGate(Robot& robot, GroupPort& group, const ModeGuard& mode, const ConveyorTracking& conveyor)
-      : robot_(robot), group_(group), mode_(mode), conveyor_(conveyor), clear_(robot), brake_(robot.parts.joints) {}
+  LastGate(Robot& robot, GroupPort& group, const ModeGuard& mode, const OffPath& off_path)
+      : robot_(robot), group_(group), mode_(mode), off_path_(off_path), clear_(robot), brake_(robot.parts.joints) {}
 
   // Every set point passes through here before it reaches a drive. One that is rejected is reported as the end of the
   // path, which has to lead to begin_braking(). Real-time safe, like all functions of this class.
@@ -40,7 +40,7 @@ class LastGate {
   Robot& robot_;
   GroupPort& group_;
   const ModeGuard& mode_;
-  const ConveyorTracking& conveyor_;
+  const OffPath off_path_;
   CollisionsAhead clear_;
   bool braking_ = false;
   bool in_step_ = false;  // all axes together, by `brake_`

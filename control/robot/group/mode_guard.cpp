@@ -48,7 +48,7 @@ double ModeGuard::axes_pace(bool jogging) const noexcept {
   return most > kPlanned ? kPlanned / most : 1;
 }
 
-bool ModeGuard::tip_too_fast(bool carried) const noexcept {
+bool ModeGuard::tip_too_fast(bool off_path) const noexcept {
   if (mode_ != OperatingMode::Manual || !robot_.states.powered() || robot_.states.is(GroupState::Homing)) {
     return false;
   }
@@ -56,7 +56,7 @@ bool ModeGuard::tip_too_fast(bool carried) const noexcept {
   tip.begin(robot_.axes.passed());
   tip.note(robot_.commanded());
   // The path on which a belt carries the arm was not planned, so axes may move against each other.
-  return (carried ? tip.farthest() : tip.moved()) > kReducedSpeed * robot_.period;
+  return (off_path ? tip.farthest() : tip.moved()) > kReducedSpeed * robot_.period;
 }
 
 ErrorCode ModeGuard::axis_permit() const noexcept {

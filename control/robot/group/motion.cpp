@@ -7,7 +7,7 @@
 namespace indurop::robot {
 
 void Group::run_state(Signals& signals) noexcept {
-  robot_.job.pulses().step(robot_.period, signals);
+  robot_.job.step_outputs(robot_.period, signals, job_motions_);
   reloading_.step(service_.is_serving(Service::JobReload), queue_.empty() && !power_.enabling(), signals);
   torques_.weigh_pushing();
   robot_.axes.move();
@@ -99,7 +99,7 @@ void Group::begin_next(bool more) noexcept {
   if (!robot_.states.moving() || shelf_.leaving() || !plans_.can_plan() || plans_.holds_forgotten()) {
     return;
   }
-  const Joints from = conveyor_.planned_end();
+  const Joints from = correction_.shifts() ? robot_.follower.end() : conveyor_.planned_end();
   const ReadAhead::Next next = plans_.begin_next(from, more);
   if (next.chain != nullptr && next.lines == nullptr) {
     resuming_.forget_steps();
@@ -169,6 +169,7 @@ void Group::follow_path() noexcept {
   Fault fault = follower.step(robot_.period);
   Joints q = follower.joints();
   fault = fault.ok() ? conveyor_.carry(q) : fault;
+  fault = fault.ok() ? correction_.shift(q) : fault;
   if (!fault.ok()) {
     if (jogging_.on() && axes.gates_at_rest() && robot_.states.moving()) {
       follower.reset(robot_.commanded());  // an axis at its limit may have no first step

@@ -19,7 +19,7 @@ void Overrides::step(const Inputs& in, bool interrupted, const ModeGuard& mode, 
   const bool held = in.hold || interrupted;
   const double limit = mode.tip_limit(jogging);
   robot_.follower.set_override(of_group * conveyor_.pace());
-  robot_.follower.set_tip_limit(std::max(0.1 * limit, limit - conveyor_.speed()));
+  robot_.follower.set_tip_limit(std::max(0.1 * limit, limit - conveyor_.speed() - correction_.speed()));
   robot_.follower.set_hold(held || (conveyor_.on() && !conveyor_.is_synchronized()));
   conveyor_.set_paused(held || of_group < Follower::kStill);
   const double slow = mode.axes_pace(jogging);

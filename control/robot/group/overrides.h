@@ -6,13 +6,15 @@
 #include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/mode_guard.h"
 #include "control/robot/group/motion_queue.h"
+#include "control/robot/group/path_correction.h"
 #include "control/robot/group/robot.h"
 
 namespace indurop::robot {
 
 class Overrides {
  public:
-  Overrides(Robot& robot, ConveyorTracking& conveyor) noexcept : robot_(robot), conveyor_(conveyor) {}
+  Overrides(Robot& robot, ConveyorTracking& conveyor, const PathCorrection& correction) noexcept
+      : robot_(robot), conveyor_(conveyor), correction_(correction) {}
 
   // Values above full speed count as full speed; values that are not numbers hold all motions. `interrupted`: by a
   // command. Real-time safe.
@@ -25,6 +27,7 @@ class Overrides {
 
   Robot& robot_;
   ConveyorTracking& conveyor_;
+  const PathCorrection& correction_;
   bool wrong_ = false;
 };
 

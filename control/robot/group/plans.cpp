@@ -6,10 +6,11 @@ namespace indurop::robot {
 void Plans::ask(const PlanRequest& request) noexcept {
   PlanRequest asked = request;
   asked.follows = asked.follows && robot_.follower.goes_over() && !unconnected_;
+  asked.reserve = correction_.shifts() ? PathCorrection::kReserve : 0;
   unconnected_ = false;
   desk_.ask(asked);
   request_ = asked;
-  if (robot_.follower.idle()) {
+  if (robot_.follower.idle() && !correction_.shifts()) {
     robot_.stand_here();
   }
 }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "control/robot/group/path_correction.h"
 #include "control/robot/group/robot.h"
 #include "control/robot/plan/planning_desk.h"
 #include "control/robot/plan/read_ahead.h"
@@ -11,8 +12,9 @@ namespace indurop::robot {
 
 class Plans {
  public:
-  explicit Plans(Robot& robot)
+  Plans(Robot& robot, const PathCorrection& correction)
       : robot_(robot),
+        correction_(correction),
         ahead_(robot.tool.places(), robot.parts.tool),
         desk_(robot.tool.places(), robot.parts.joints, robot.parts.tool, robot.parts.settings) {}
 
@@ -53,6 +55,7 @@ class Plans {
 
  private:
   Robot& robot_;
+  const PathCorrection& correction_;
   ReadAhead ahead_;
   PlanningDesk desk_;
   PlanRequest request_;

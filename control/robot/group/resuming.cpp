@@ -30,6 +30,7 @@ void Resuming::set_aside(int tool, bool asked) noexcept {
 void Resuming::drop() noexcept {
   aside_ = false;
   passed_known_ = 0;
+  correction_.end();
 }
 
 void Resuming::pause() noexcept {
@@ -80,7 +81,10 @@ ErrorCode Resuming::resume() noexcept {
   if (!group_.change_tool(aside_tool_)) {
     return ErrorCode::State;
   }
-  const Joints to = robot_.follower.kept_path().q;
+  Joints to = robot_.follower.kept_path().q;
+  if (!correction_.shift_kept(to)) {
+    return ErrorCode::Unreachable;
+  }
   if (!is_near(to)) {
     say_how_far(to);
     return ErrorCode::Away;
@@ -152,6 +156,7 @@ void Resuming::end_way_back() noexcept {
     return;
   }
   aside_ = false;
+  correction_.resume();
   robot_.job.resume();
   continue_on_path(asked_);
 }

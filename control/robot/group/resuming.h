@@ -7,6 +7,7 @@
 #include <array>
 
 #include "control/robot/group/group_port.h"
+#include "control/robot/group/path_correction.h"
 #include "control/robot/group/plans.h"
 #include "control/robot/group/robot.h"
 
@@ -16,7 +17,8 @@ class Resuming {
  public:
   enum class Return { None, ToPath, Back, FromInterrupt };
 
-  Resuming(Robot& robot, GroupPort& group, Plans& plans) noexcept : robot_(robot), group_(group), plans_(plans) {}
+  Resuming(Robot& robot, GroupPort& group, Plans& plans, PathCorrection& correction) noexcept
+      : robot_(robot), group_(group), plans_(plans), correction_(correction) {}
 
   // Returns whether a job can be resumed. Real-time safe, like all functions of this class.
   [[nodiscard]] bool aside() const noexcept { return aside_; }
@@ -61,6 +63,7 @@ class Resuming {
   Robot& robot_;
   GroupPort& group_;
   Plans& plans_;
+  PathCorrection& correction_;
   bool aside_ = false;
   int aside_tool_ = 0;
   bool asked_ = false;  // a plan was being made

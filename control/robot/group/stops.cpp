@@ -44,12 +44,12 @@ void Stops::trip(ErrorCode code, int axis, double hardness, const char* why) noe
   for (AxisControl& a : robot_.axes) {
     a.power(a.wants_power() && !cut);
   }
-  const bool on_it = !robot_.follower.idle() && !conveyor_.on() && robot_.states.on_path();
+  const bool on_it = !robot_.follower.idle() && !off_path_.conveyor.on() && robot_.states.on_path();
   if (!on_it || !keeps_path(code) || cut) {
     leave_path(code);
     return;
   }
-  robot_.follower.stop_hard(gate_.hardness());
+  robot_.follower.stop_hard(gate_.hardness() * off_path_.correction.path_share());
   for (AxisControl& a : robot_.axes) {
     if (!a.in_group()) {
       a.fail(code, gate_.hardness());
@@ -70,7 +70,8 @@ void Stops::fall_off(ErrorCode code, int axis) noexcept {
 // before.
 void Stops::leave_path(ErrorCode code) noexcept {
   const bool alone = robot_.axes.any_busy();
-  conveyor_.drop(code);
+  off_path_.conveyor.drop(code);
+  off_path_.correction.stand();
   robot_.follower.reset(robot_.commanded());
   gate_.begin_braking(!alone && !is_foreseen(code));
   for (AxisControl& a : robot_.axes) {
@@ -103,14 +104,14 @@ void Stops::stop_for_mode(ErrorCode code) noexcept {
     states.leave_path();
   } else if (code != ErrorCode::Enabling) {
     robot_.follower.stop();
-  } else if (conveyor_.on()) {
-    conveyor_.drop(code);
+  } else if (off_path_.conveyor.on()) {
+    off_path_.conveyor.drop(code);
     robot_.follower.reset(robot_.commanded());
     gate_.set_hardness(hardness);
     gate_.begin_braking(true);
   } else {
     gate_.set_hardness(hardness);
-    robot_.follower.stop_hard(hardness);
+    robot_.follower.stop_hard(hardness * off_path_.correction.path_share());
   }
   if (states.powered()) {
     states.stop();
@@ -194,10 +195,11 @@ ErrorCode Stops::disable() noexcept {
 
 void Stops::step() noexcept {
   GroupStates& states = robot_.states;
-  const bool ended = states.on_path() ? robot_.follower.idle() && !conveyor_.on() : robot_.axes.at_rest();
+  const bool ended = states.on_path() ? robot_.follower.idle() && off_path_.at_rest() : robot_.axes.at_rest();
   if (!ended) {
     return;
   }
+  off_path_.correction.stand();
   if (states.to_error()) {
     states.error_stop();
     for (AxisControl& a : robot_.axes) {

@@ -4,9 +4,9 @@
 
 #pragma once
 
-#include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/group_port.h"
 #include "control/robot/group/last_gate.h"
+#include "control/robot/group/off_path.h"
 #include "control/robot/group/power.h"
 #include "control/robot/group/robot.h"
 
@@ -14,8 +14,8 @@ namespace indurop::robot {
 
 class Stops {
  public:
-  Stops(Robot& robot, GroupPort& group, LastGate& gate, ConveyorTracking& conveyor, Power& power) noexcept
-      : robot_(robot), group_(group), gate_(gate), conveyor_(conveyor), power_(power) {}
+  Stops(Robot& robot, GroupPort& group, LastGate& gate, const OffPath& off_path, Power& power) noexcept
+      : robot_(robot), group_(group), gate_(gate), off_path_(off_path), power_(power) {}
 
   // Errors; see GroupPort. Real-time safe, like all functions of this class.
   void trip(ErrorCode code, int axis, double hardness, const char* why) noexcept;
@@ -44,7 +44,7 @@ class Stops {
   Robot& robot_;
   GroupPort& group_;
   LastGate& gate_;
-  ConveyorTracking& conveyor_;
+  const OffPath off_path_;
   Power& power_;
   int ticket_ = CommandTable::kNone;  // of the command
 };

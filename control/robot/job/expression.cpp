@@ -360,7 +360,7 @@ Formula ExpressionReader::coordinate(Coordinate which) {
   return formula;
 }
 
-// Parses "n", "a[i]", "TIME", "FOUND", "I4", "I4 ON", "I4 OFF"
+// Parses "n", "a[i]", "TIME", "TIPSPEED", "FOUND", "I4", "I4 ON", "I4 OFF"
 Formula ExpressionReader::named(int depth) {
   Formula formula;
   if (at_variable()) {
@@ -373,6 +373,8 @@ Formula ExpressionReader::named(int depth) {
     }
   } else if (line_.accept("TIME")) {
     formula.push({FormulaOp::Time, -1, 0});
+  } else if (line_.accept("TIPSPEED")) {
+    formula.push({FormulaOp::TipSpeed, -1, 0});
   } else if (line_.accept("FOUND")) {
     formula.push({FormulaOp::Found, -1, 0});
   } else {

@@ -124,7 +124,8 @@ void Formula::push(const FormulaPart& part) {
   depth_ += is_operand(part.op) ? 1 : takes_one(part.op) ? 0 : -1;
   deepest_ = std::max(deepest_, depth_);
   reads_.add({part.op == FormulaOp::Variable || part.op == FormulaOp::Element, part.op == FormulaOp::Signal,
-              part.op == FormulaOp::Time || part.op == FormulaOp::Found, part.op == FormulaOp::Coordinate});
+              part.op == FormulaOp::Time || part.op == FormulaOp::Found || part.op == FormulaOp::TipSpeed,
+              part.op == FormulaOp::Coordinate});
 }
 
 double Formula::value(FormulaInput& in) const noexcept {
@@ -138,6 +139,8 @@ double Formula::value(FormulaInput& in) const noexcept {
       now = in.signals.read(static_cast<std::size_t>(part.index));
     } else if (part.op == FormulaOp::Time) {
       now = in.time;
+    } else if (part.op == FormulaOp::TipSpeed) {
+      now = 1000 * in.port->tip_speed();
     } else if (part.op == FormulaOp::Found) {
       now = in.places->found().known ? 1 : 0;
     } else if (part.op == FormulaOp::Coordinate) {

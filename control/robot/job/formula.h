@@ -19,6 +19,7 @@ enum class FormulaOp : std::uint8_t {
   Number,
   Variable,    // index: variable of the job
   Signal,      // index: shared variable
+  TipSpeed,    // mm/s of the tip
   Time,        // s that the job has run
   Found,       // 1 if the last UNTIL has ended its motion
   Coordinate,  // of a place; index: place formula; value: Coordinate

@@ -29,9 +29,11 @@ enum class Op : std::uint8_t {
   Acceleration,  // value: part of the full accelerations and jerks
   Tool,          // index: tool
   Load,          // index: load of the book
+  Correct,       // slot: correction of the book, -1: ends it; index: frame of its axes, -1: the base
   Set,           // index: signal; formula; pulse
   SetOnPath,     // as Set, during the motion before it: value: m before its end, after its start if mid is 1;
                  // timeout above 0: s instead of m
+  Follow,        // index: signal; formula that it follows from here on, -1: no longer
   Assign,        // index: variable of the job; formula. An element of an array: index: its first one; mid: its size;
                  // formula: of the element's number, followed by that of the value
   WaitUntil,     // formula; timeout; index: step after a timeout, -1: the job fails
@@ -91,6 +93,16 @@ struct JobQuestion {
   int lower = -1;                      // formula: range of that number; the next formula is its upper end
   double step = 1;                     // answers are whole multiples of it above the lower end
   int variable = -1;                   // of the job, receives the answer; -1: none
+};
+
+// A CORRECT statement: how motions are shifted from here on.
+struct JobCorrection {
+  int formula = -1;      // first one of x, y and z in mm, evaluated in each period
+  bool by_tool = false;  // along the axes of the tool, instead of those of a frame
+  double limit = 0;      // m, of each of them
+  double rate = 0;       // m/s, of each of them
+  int beat = -1;         // signal that changes with each measurement; -1: none
+  double age = 0;        // s after which it has to have changed
 };
 
 // What the line of a motion says besides its points.
@@ -196,6 +208,7 @@ struct JobBook {
   std::vector<MotionExtras> extras{};
   std::vector<JobText> texts{};
   std::vector<JobQuestion> questions{};
+  std::vector<JobCorrection> corrections{};
   // An ON statement: its condition, and the job that it calls when the condition becomes true.
   struct Interrupt {
     int formula = -1;

@@ -8,6 +8,14 @@
 
 namespace indurop::robot {
 
+// How motions are shifted: along which axes, and the limits of the shift along each of them.
+struct CorrectionWay {
+  Quat axes = Quat::Identity();  // in the base
+  bool by_tool = false;          // along the axes of the tool instead
+  double limit = 0;              // m
+  double rate = 0;               // m/s
+};
+
 class MotionPort {
  public:
   virtual ~MotionPort() = default;
@@ -15,6 +23,8 @@ class MotionPort {
   [[nodiscard]] virtual bool ready() const noexcept = 0;
   // Returns whether all commanded motions have ended.
   [[nodiscard]] virtual bool settled() const noexcept = 0;
+  // Returns whether the robot moves along its path in this period.
+  [[nodiscard]] virtual bool is_moving() const noexcept { return !settled(); }
   virtual Fault move(const MoveCommand& command) noexcept = 0;
   // Comes to rest on the path as soon as its limits allow, and discards the rest of it.
   virtual void halt() noexcept {}
@@ -22,7 +32,15 @@ class MotionPort {
   virtual bool take_tool(int) noexcept { return true; }
   // Selects a load when all motions have ended. Returns false if it is not done yet.
   virtual bool take_load(int) noexcept { return true; }
+  // Begins and ends shifting all motions when they have ended. Each returns false if it is not done yet. The motion
+  // after the end begins where the arm is then.
+  virtual bool begin_correction(const CorrectionWay&) noexcept { return true; }
+  virtual bool end_correction() noexcept { return true; }
+  // How far to shift from now on, m along the axes; what exceeds the limit is cut off.
+  virtual void correct(const Vec3&) noexcept {}
   [[nodiscard]] virtual PathPlace place() const noexcept { return {}; }
+  // m/s of the tip of the selected tool, of the last set point.
+  [[nodiscard]] virtual double tip_speed() const noexcept { return 0; }
   // Joint values: the set point, and as the drives report them.
   [[nodiscard]] virtual Joints commanded() const noexcept { return Joints::Zero(); }
   [[nodiscard]] virtual Joints measured() const noexcept { return commanded(); }

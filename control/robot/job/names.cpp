@@ -219,6 +219,13 @@ void JobNames::resolve(const Reference& reference) {
     case To::Job:
       resolve_job(reference, step);
       break;
+    case To::Frame:
+      step.index = find(known_.frames, reference.at.name);
+      if (step.index < 0) {
+        error(reference.at,
+              robot::no_such("frame", reference.at.name, suggested(draft_.book().frames), "FRAME", kFrame));
+      }
+      break;
     case To::Computed:
       resolve_computed(reference, step);
       break;

@@ -21,7 +21,7 @@ namespace indurop::robot {
 class JobNames {
  public:
   // What the name stands for in a step.
-  enum class To { Target, Mid, Job, Label, Tool, Computed };
+  enum class To { Target, Mid, Job, Label, Tool, Computed, Frame };
   // What the name stands for in a declaration.
   enum class In { PointFrame, FramePoint, FrameTool, ToolPoint, ZoneFrame, PlaceName };
 

@@ -5,6 +5,7 @@
 
 #include "control/robot/job/blocks.h"
 #include "control/robot/job/bodies.h"
+#include "control/robot/job/each_period.h"
 #include "control/robot/job/flow_statements.h"
 #include "control/robot/job/motions.h"
 #include "control/robot/job/place_formulas.h"
@@ -38,6 +39,7 @@ class JobParser {
   ToolReader tools_;
   BodyReader bodies_;
   MotionReader motions_;
+  EachPeriodReader each_period_;
   FlowReader flow_;
   ValueReader values_;
   BlockReader blocks_;

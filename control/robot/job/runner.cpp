@@ -55,7 +55,9 @@ bool touches_world(const JobBook& book, const Step& step) noexcept {
     case Op::Ask:
     case Op::Tool:
     case Op::Load:
+    case Op::Correct:
     case Op::Arm:
+    case Op::Follow:
     case Op::Disarm:
     case Op::Try:
     case Op::EndTry:
@@ -128,19 +130,23 @@ JobReport JobRunner::report(int source) const noexcept {
 void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcept {
   const PathPlace place = port.place();
   if (!interrupts_.is(Interrupts::Phase::Leaving) || place.ticket != 0) {
-    outputs_.step(seconds, place, port.settled(), signals, pulses_);
+    outputs_.on_path.step(seconds, place, port.settled(), signals, outputs_.pulses);
   }
   if (!running() || serve_interrupts(signals, port)) {
     return;
   }
   values_.pass(seconds);
+  if (const auto flaw = correcting_.step(seconds, values_, signals, port); !flaw.ok()) {
+    fail({ErrorCode::Line}, flaw.why, 0);
+    return;
+  }
   bool first = true;
   for (int left = kStepsPerPeriod; left > 0 && running(); first = false) {
     const Step* step = jobs_.step();
     left -= step == nullptr ? 1 : cost_of(book_, *step);
     Next next = Next::Wait;
     if (step == nullptr) {
-      next = leave(port);
+      next = leave(signals, port);
     } else if (search_.ticket == 0 && pauses_.before(jobs_)) {
       if (port.settled()) {
         state_ = JobState::Paused;
@@ -163,7 +169,16 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
   }
 }
 
-JobRunner::Next JobRunner::leave(MotionPort& port) noexcept {
+// While an interrupt is served, outputs do not follow its motions.
+void JobRunner::step_outputs(double seconds, Signals& signals, const MotionPort& port) noexcept {
+  outputs_.pulses.step(seconds, signals);
+  const bool live = running() && interrupts_.is(Interrupts::Phase::None);
+  if (const auto flaw = outputs_.followed.step(live, values_, signals, port); !flaw.ok()) {
+    fail({ErrorCode::Line}, flaw.why, 0);
+  }
+}
+
+JobRunner::Next JobRunner::leave(Signals& signals, MotionPort& port) noexcept {
   if (interrupts_.is(Interrupts::Phase::Running) && jobs_.depth() == interrupted_.depth + 1) {
     return leave_interrupt(port);
   }
@@ -176,6 +191,8 @@ JobRunner::Next JobRunner::leave(MotionPort& port) noexcept {
     return Next::Go;
   }
   if (port.settled()) {
+    correcting_.reset();
+    outputs_.followed.reset(signals);
     state_ = JobState::Ended;
     ++cycles_;
   }
@@ -223,15 +240,15 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
         settings_.apply(with);
       }
       break;
+    case Op::Set:
     case Op::SetOnPath:
-      next = set_on_path(step, signals, port);
+    case Op::Follow:
+      next = output(step, signals, port);
       break;
     case Op::Tool:
     case Op::Load:
+    case Op::Correct:
       next = select(step, port);
-      break;
-    case Op::Set:
-      next = set(step, signals, port);
       break;
     case Op::Assign:
       next = done(values_.assign(step, signals, port));
@@ -263,7 +280,16 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
 }
 
 JobRunner::Next JobRunner::select(const Step& step, MotionPort& port) noexcept {
-  if (!(step.op == Op::Tool ? port.take_tool(step.index) : port.take_load(step.index))) {
+  bool is_done = false;
+  StepValues::Flaw flaw;
+  if (step.op == Op::Correct) {
+    flaw = correcting_.run(step, places_, port, is_done);
+  } else if (correcting_.on()) {
+    flaw = {"tool and load must not change while motions are corrected; end that with CORRECT OFF before"};
+  } else {
+    is_done = step.op == Op::Tool ? port.take_tool(step.index) : port.take_load(step.index);
+  }
+  if (done(flaw) == Next::Wait || !is_done) {
     return Next::Wait;
   }
   settings_.apply(step);
@@ -272,6 +298,9 @@ JobRunner::Next JobRunner::select(const Step& step, MotionPort& port) noexcept {
 
 bool JobRunner::command_motion(const Step& step, Signals& signals, MotionPort& port) noexcept {
   if (!port.ready()) {
+    return false;
+  }
+  if (done(correcting_.check(step)) == Next::Wait) {
     return false;
   }
   if (in_job_ && (step.move == Move::Circle || step.move == Move::Spline)) {
@@ -294,18 +323,10 @@ bool JobRunner::command_motion(const Step& step, Signals& signals, MotionPort& p
   return true;
 }
 
-JobRunner::Next JobRunner::set(const Step& step, Signals& signals, const MotionPort& port) noexcept {
-  const auto index = static_cast<std::size_t>(step.index);
-  if (step.pulse > 0) {
-    return pulses_.start(index, step.pulse, signals) ? Next::Go : Next::Wait;
-  }
-  double value = 0;
-  if (!compute(step.formula, signals, port, value)) {
-    return Next::Wait;
-  }
-  pulses_.forget(index);
-  signals.write(index, value);
-  return Next::Go;
+JobRunner::Next JobRunner::output(const Step& step, Signals& signals, const MotionPort& port) noexcept {
+  bool is_done = false;
+  const auto flaw = outputs_.run(step, ticket_, values_, signals, port, is_done);
+  return done(flaw) == Next::Go && is_done ? Next::Go : Next::Wait;
 }
 
 JobRunner::Next JobRunner::branch(const Step& step, Signals& signals, const MotionPort& port) noexcept {
@@ -366,19 +387,6 @@ JobRunner::Next JobRunner::call(const Step& step, Signals& signals, const Motion
   }
   jobs_.advance();
   jobs_.call(step.index, arguments, step.slot);
-  return Next::Go;
-}
-
-JobRunner::Next JobRunner::set_on_path(const Step& step, Signals& signals, const MotionPort& port) noexcept {
-  if (outputs_.is_full()) {
-    return Next::Wait;
-  }
-  double value = 0;
-  if (step.formula >= 0 && !compute(step.formula, signals, port, value)) {
-    return Next::Wait;
-  }
-  const bool by_time = step.timeout > 0;
-  outputs_.add({step.index, value, ticket_, by_time, step.mid == 1, by_time ? step.timeout : step.value, step.pulse});
   return Next::Go;
 }
 

@@ -10,13 +10,13 @@
 
 #include "control/robot/job/breakpoints.h"
 #include "control/robot/job/call_stack.h"
+#include "control/robot/job/correcting.h"
 #include "control/robot/job/interrupts.h"
 #include "control/robot/job/job.h"
 #include "control/robot/job/job_places.h"
 #include "control/robot/job/motion_port.h"
 #include "control/robot/job/open_question.h"
-#include "control/robot/job/path_outputs.h"
-#include "control/robot/job/pulses.h"
+#include "control/robot/job/outputs.h"
 #include "control/robot/job/step_motions.h"
 #include "control/robot/job/step_values.h"
 #include "control/robot/kinematics/errors.h"
@@ -32,6 +32,7 @@ class JobRunner {
         values_(book, jobs_, places_),
         motions_(book, places_, values_),
         question_(book),
+        correcting_(book),
         interrupts_(book) {}
   JobRunner(const JobRunner&) = delete;
   JobRunner& operator=(const JobRunner&) = delete;
@@ -63,8 +64,10 @@ class JobRunner {
   // The question that waits for an answer; null: none. While the job is stopped, paused or interrupted, its question
   // cannot be answered; then it is asked again.
   [[nodiscard]] OpenQuestion* open_question() noexcept;
+  // Called once per period, before step(), whether a job runs or not: outputs that are timed or follow the motion.
+  void step_outputs(double seconds, Signals& signals, const MotionPort& port) noexcept;
   // Timed outputs, which end whether a job runs or not.
-  [[nodiscard]] Pulses& pulses() noexcept { return pulses_; }
+  [[nodiscard]] const Pulses& pulses() const noexcept { return outputs_.pulses; }
 
   // Clears all state about jobs, because the book was replaced.
   void forget() noexcept;
@@ -89,12 +92,11 @@ class JobRunner {
   bool compute(int formula, Signals& signals, const MotionPort& port, double& value) noexcept;
   // Waits for a time, a condition or an answer.
   Next wait(const Step& step, double seconds, Signals& signals, const MotionPort& port) noexcept;
-  Next set_on_path(const Step& step, Signals& signals, const MotionPort& port) noexcept;
-  Next set(const Step& step, Signals& signals, const MotionPort& port) noexcept;
+  Next output(const Step& step, Signals& signals, const MotionPort& port) noexcept;
   Next select(const Step& step, MotionPort& port) noexcept;
   Next branch(const Step& step, Signals& signals, const MotionPort& port) noexcept;
   Next call(const Step& step, Signals& signals, const MotionPort& port) noexcept;
-  Next leave(MotionPort& port) noexcept;
+  Next leave(Signals& signals, MotionPort& port) noexcept;
 
   // Interrupts and errors (runner_interrupts.cpp).
   bool serve_interrupts(Signals& signals, MotionPort& port) noexcept;
@@ -124,10 +126,10 @@ class JobRunner {
   Search search_;
   double waited_ = 0;  // s in the present step
   OpenQuestion question_;
+  Correcting correcting_;
   MotionSettings settings_;
   int load_ = 0;
-  PathOutputs outputs_;
-  Pulses pulses_;
+  JobOutputs outputs_;
   Interrupts interrupts_;
   // The state to continue with after the interrupt.
   struct Interrupted {

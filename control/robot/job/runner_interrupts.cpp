@@ -13,8 +13,8 @@ namespace indurop::robot {
 bool JobRunner::serve_interrupts(Signals& signals, MotionPort& port) noexcept {
   interrupts_.monitor(signals);
   if (interrupts_.is(Interrupts::Phase::None)) {
-    if (!interrupts_.any_pending() || search_.met) {
-      return false;  // what comes to rest for UNTIL has no path to come back to
+    if (!interrupts_.any_pending() || search_.met || correcting_.on()) {
+      return false;  // what comes to rest for UNTIL has no path to return to, and a corrected robot is not on it
     }
     if (jobs_.is_full()) {
       fail({ErrorCode::Line}, "an interrupt came here, but jobs call each other too deep for another one", 0);
@@ -37,12 +37,12 @@ bool JobRunner::serve_interrupts(Signals& signals, MotionPort& port) noexcept {
 }
 
 void JobRunner::begin_interrupt() noexcept {
-  interrupted_ = {state_,  jobs_.depth(),   waited_, question_.asked(), settings_, outputs_,
+  interrupted_ = {state_,  jobs_.depth(),   waited_, question_.asked(), settings_, outputs_.on_path,
                   search_, places_.found(), in_job_};
   state_ = JobState::Runs;
   waited_ = 0;
   question_.close();
-  outputs_.clear();
+  outputs_.on_path.clear();
   search_ = {};
   in_job_ = false;
   jobs_.call(interrupts_.begin(), {});
@@ -50,7 +50,7 @@ void JobRunner::begin_interrupt() noexcept {
 
 JobRunner::Next JobRunner::leave_interrupt(MotionPort& port) noexcept {
   Fault fault;
-  if (!outputs_.any() && port.settled() && port.come_back(fault)) {
+  if (!outputs_.on_path.any() && port.settled() && port.come_back(fault)) {
     interrupts_.begin_return();
   } else if (!fault.ok()) {
     fail(fault, "this job was called by ON and has ended too far from where the path was left; end it with MOVJ BACK",
@@ -66,7 +66,7 @@ void JobRunner::end_interrupt() noexcept {
   waited_ = left.waited;
   question_.set_asked(left.asked);
   settings_ = left.settings;
-  outputs_ = left.outputs;
+  outputs_.on_path = left.outputs;
   search_ = left.search;
   places_.set_found(left.found);
   in_job_ = left.in_job;
@@ -131,7 +131,7 @@ bool JobRunner::continue_after(double number, std::uint32_t ticket) noexcept {
     if (step == nullptr || step->guard < 0) {
       continue;
     }
-    outputs_.discard_from(ticket);
+    outputs_.on_path.discard_from(ticket);
     jobs_.return_to(depth);
     const Step& guard = jobs_.steps()[static_cast<std::size_t>(step->guard)];
     jobs_.variables()[static_cast<std::size_t>(guard.mid)] = number;

@@ -21,6 +21,8 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   waited_ = 0;
   question_.close();
   search_ = {};
+  correcting_.reset();
+  outputs_.followed.forget();
   places_.reset();
   values_.reset();
   settings_ = {};
@@ -28,7 +30,7 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   line_ = 0;
   line_job_ = job;
   message_[0] = '\0';
-  outputs_ = {};
+  outputs_.on_path = {};
   interrupts_.reset();
   ticket_ = 0;
   pauses_.reset();
@@ -37,6 +39,7 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
     if (before->formula < 0) {
       settings_.apply(*before);  // what would have to be computed is not known
     }
+    correcting_.skip(*before);
     load_ = before->op == Op::Load ? before->index : load_;
   }
   jobs_.jump(static_cast<int>(first - steps.begin()));
@@ -77,8 +80,10 @@ void JobRunner::forget() noexcept {
   job_ = -1;
   waited_ = 0;
   question_.close();
-  outputs_ = {};
+  outputs_.on_path = {};
   search_ = {};
+  correcting_.reset();
+  outputs_.followed.forget();
   places_.reset();
   interrupts_.reset();
   pauses_.reset();

@@ -17,6 +17,7 @@ Fault MotionPlanning::finish(Fault fault, const std::atomic<bool>& dropped) noex
 }
 
 void MotionPlanning::plan(const PlanRequest& request, const std::atomic<bool>& dropped, Plan& plan) noexcept {
+  planner_.spare(request.reserve);
   plan.blend = {};
   plan.parts = false;
   if (request.chain != nullptr) {

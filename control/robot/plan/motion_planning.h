@@ -20,6 +20,7 @@ struct PlanRequest {
   const Chain* lines = nullptr;  // the chain, if its lines may also be followed one by one
   bool leads = false;            // `then` is known: it follows, and is no chain
   MoveCommand then{};
+  double reserve = 0;  // part of the joints' limits that is left to a correction of the path
 };
 
 struct Plan {

@@ -7,6 +7,7 @@ namespace indurop::robot {
 
 Planner::Planner(const Places& places, const JointLimits& joints, const ToolLimits& tool)
     : places_(places),
+      all_(joints),
       joints_(joints),
       tool_(tool),
       draft_{{}, joints, tool, {}},
@@ -15,6 +16,11 @@ Planner::Planner(const Places& places, const JointLimits& joints, const ToolLimi
       timing_(places, draft_, survey_.findings()),
       effort_(places, joints_),
       blending_(places, joints_, tool_, clearance_) {}
+
+void Planner::spare(double part) noexcept {
+  joints_ = gentler(all_, 1 - part);
+  joints_.velocity *= 1 - part;
+}
 
 void Planner::begin(const Joints& from, double acceleration) noexcept {
   draft_.segment = {};

@@ -20,6 +20,8 @@ class Planner {
   Planner(const Planner&) = delete;
   Planner& operator=(const Planner&) = delete;
 
+  // Leaves this part of the joints' limits to others in all motions that are planned from now on.
+  void spare(double part) noexcept;
   // Begins with a motion that starts at `from`. Real-time safe, like all functions of this class, unless collisions
   // have to be checked. Errors: Value, Unreachable, JointLimit, Circle, Workspace.
   Fault begin(const MoveCommand& command, const Joints& from) noexcept;
@@ -59,7 +61,8 @@ class Planner {
   [[nodiscard]] Fault check_workspace() const noexcept;
 
   const Places& places_;
-  const JointLimits joints_;
+  const JointLimits all_;
+  JointLimits joints_;  // the part of them that motions may use
   const ToolLimits tool_;
   Draft draft_;
   PathSurvey survey_;

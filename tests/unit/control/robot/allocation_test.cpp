@@ -55,6 +55,17 @@ TEST(RobotAllocation, A_whole_job_allocates_nothing) {
   EXPECT_EQ(out.error, ErrorCode::Unreachable);
 }
 
+TEST(RobotAllocation, Neither_does_a_path_that_is_corrected) {
+  Outputs out;
+  std::string message;
+  const std::string job =
+      "POINT A = POSE 500 100 400 RPY 180 0 180\nPOINT B = POSE 500 -100 400 RPY 180 0 180\nMOVJ A\n"
+      "CORRECT 5 * SIN(200 * TIME), 0, I1 LIMIT 20 mm RATE 50 mm/s\nFOLLOW O9 = 0.02 * TIPSPEED\nLOOP 3\nMOVL B\n"
+      "MOVL A\nEND\nCORRECT OFF\n";
+  EXPECT_EQ(allocations_of(cell_urdf(), job, out, message), 0U);
+  EXPECT_EQ(out.job.state, JobState::Ended) << message;
+}
+
 TEST(RobotAllocation, Neither_does_one_whose_torques_are_limited) {
   Outputs out;
   std::string message;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twelve tasks that robot programmers have, written as jobs (topics/*.job): each of them is read without a finding,
+// Tasks that robot programmers have, written as jobs (topics/*.job): each of them is read without a finding,
 // runs to its end with every set point within the limits, and gives what it has to give.
 #include <gmock/gmock.h>
 
@@ -59,6 +59,9 @@ void react(const std::string& topic, Cell& cell, const Values& values, int perio
     set("I3", cell.out.position[1] > 0 ? 1 : 0);
   } else if (topic == "search") {
     set("I4", cell.out.position[2] < 317 ? 1 : 0);
+  } else if (topic == "seam") {
+    set("DY", std::min(12.0, 0.02 * period));
+    set("COUNT", period);
   } else if (topic == "timeouts") {
     set("I5", period > 60 ? 1 : 0);
   } else if (topic == "dialogue") {
@@ -106,11 +109,12 @@ TEST_P(Job_topics, Run_to_their_end) {
   EXPECT_NEAR(*values.at("OUT"), topic.wanted, topic.within);
 }
 
-INSTANTIATE_TEST_SUITE_P(Twelve, Job_topics,
+INSTANTIATE_TEST_SUITE_P(Common, Job_topics,
                          testing::Values(Topic{"palletising", {}, 12, 0}, Topic{"tools", {}, -90, 1e-3},
                                          Topic{"interrupts", {"eject"}, 250, 1e-3}, Topic{"glue", {}, 0, 0},
                                          Topic{"spline", {}, -150, 1e-3}, Topic{"search", {}, 317, 0.3},
-                                         Topic{"timeouts", {}, 2, 1}, Topic{"subprograms", {"height"}, 180, 0},
+                                         Topic{"seam", {}, 12, 0.01}, Topic{"timeouts", {}, 2, 1},
+                                         Topic{"subprograms", {"height"}, 180, 0},
                                          Topic{"dialogue", {}, -200e3 + 22.5 + 12 * 10 + 1, 0.1},
                                          Topic{"external_axis", {}, 1000, 1e-3, "rail"},
                                          Topic{"machine_tending", {}, 211, 0}, Topic{"recovery", {}, 1072, 0}),

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What moves set points away from the planned path: belts, and corrections of jobs.
+
+#pragma once
+
+#include "control/robot/group/conveyor_tracking.h"
+#include "control/robot/group/path_correction.h"
+
+namespace indurop::robot {
+
+struct OffPath {
+  ConveyorTracking& conveyor;
+  PathCorrection& correction;
+
+  // Returns whether set points may be elsewhere than planned.
+  [[nodiscard]] bool any() const noexcept { return conveyor.on() || correction.shifts(); }
+  // Returns whether the set points rest if the path does.
+  [[nodiscard]] bool at_rest() const noexcept { return !conveyor.on() && correction.at_rest(); }
+};
+
+}  // namespace indurop::robot

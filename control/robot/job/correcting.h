@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The CORRECT of the running job: what its expressions say in each period. Real-time safe.
+
+#pragma once
+
+#include "control/robot/job/step_values.h"
+
+namespace indurop::robot {
+
+class Correcting {
+ public:
+  // The book is borrowed.
+  explicit Correcting(const JobBook& book) noexcept : book_(book) {}
+
+  // A job is started; none is on.
+  void reset() noexcept {
+    now_ = -1;
+    skipped_ = false;
+  }
+  // Records a step before the one at which the job starts.
+  void skip(const Step& step) noexcept;
+  // Returns whether the job was started between CORRECT and CORRECT OFF.
+  [[nodiscard]] bool was_skipped() const noexcept { return skipped_; }
+
+  // Executes a CORRECT, or a CORRECT OFF. `done`: whether it has been done; else it has to be tried again.
+  StepValues::Flaw run(const Step& step, const JobPlaces& places, MotionPort& port, bool& done) noexcept;
+  [[nodiscard]] bool on() const noexcept { return now_ >= 0; }
+  // Returns why the motion of a step cannot be corrected; none: it can, or nothing is corrected.
+  [[nodiscard]] StepValues::Flaw check(const Step& motion) const noexcept;
+  // Called once per period while the job runs: tells `port` how far to shift.
+  StepValues::Flaw step(double seconds, const StepValues& values, Signals& signals, MotionPort& port) noexcept;
+
+ private:
+  const JobBook& book_;
+  int now_ = -1;  // correction of the book
+  bool skipped_ = false;
+  double beat_ = 0;  // last value of the variable that counts the measurements
+  double age_ = 0;   // s since it changed
+};
+
+}  // namespace indurop::robot
