@@ -151,7 +151,7 @@ class CopyPlant {
     Block bits;
     const auto bytes = bus_.segment().slave(slave).esc().memory(memory, kSlaveBytes);
     for (std::size_t i = first; i < first + count; ++i) {
-      bits.push_back(static_cast<std::uint8_t>(bytes[i / 8] >> (i % 8) & 1U));
+      bits.push_back(static_cast<std::uint8_t>((static_cast<unsigned>(bytes[i / 8]) >> (i % 8)) & 1U));
     }
     return bits;
   }
