@@ -106,7 +106,10 @@ ErrorCode ConveyorTracking::track(const Command& command, bool turns) noexcept {
       command.option > static_cast<int>(kBelts)) {
     return ErrorCode::Value;
   }
-  const Tracking::Carrier carrier{turns, command.option - 1, pose_of(command.to), pose_of(command.aux)};
+  return track({turns, command.option - 1, pose_of(command.to), pose_of(command.aux)});
+}
+
+ErrorCode ConveyorTracking::track(const Tracking::Carrier& carrier) noexcept {
   const BeltEstimator& belt = belts_[at(carrier.belt)];
   if (!belt.known()) {
     FaultText why;
@@ -120,6 +123,12 @@ ErrorCode ConveyorTracking::track(const Command& command, bool turns) noexcept {
   tracking_.set(carrier, belt);
   product_lost_ = false;
   return ErrorCode::Ok;
+}
+
+void ConveyorTracking::release() noexcept {
+  end_tracking();
+  tracking_.forget();
+  product_lost_ = false;
 }
 
 // Called before the product's coordinates change: the tool comes to rest, and motions on the product are discarded.
@@ -140,6 +149,16 @@ void ConveyorTracking::sense(const std::array<BeltIn, kBelts>& belts) noexcept {
   }
 }
 
+// Whatever moves the tool fails because of the belt.
+void ConveyorTracking::end_motion(ErrorCode code, const char* why) noexcept {
+  if (robot_.job.running()) {
+    robot_.job.fail({code}, why, std::max(robot_.follower.source(), 0));
+    group_.finish_service(code);
+  }
+  group_.drop_motions(code);
+  group_.stop_for(Fault{code});
+}
+
 // The tool comes to rest on its own, without the belt.
 void ConveyorTracking::lose_product(const char* why) noexcept {
   FaultText text;
@@ -147,12 +166,14 @@ void ConveyorTracking::lose_product(const char* why) noexcept {
                 tracking_.carrier().belt + 1, why);
   tracking_.forget();
   product_lost_ = true;
+  const bool ends_job = tracking_.on() && robot_.states.moving() && robot_.job.running();
   if (tracking_.on() && robot_.states.moving()) {
-    group_.drop_motions(ErrorCode::Belt);
-    group_.stop_for(Fault{ErrorCode::Belt});
+    end_motion(ErrorCode::Belt, text);
   }
   leave(false);
-  robot_.job.set_message(text);
+  if (!ends_job) {
+    robot_.job.set_message(text);  // otherwise the message names the line, too
+  }
 }
 
 ErrorCode ConveyorTracking::join() noexcept {
@@ -232,8 +253,7 @@ void ConveyorTracking::steer() noexcept {
   } else if (held_ && tracking_.leaves() && tracking_.known()) {
     held_ = false;
     if (const ErrorCode code = join(); code != ErrorCode::Ok) {
-      group_.drop_motions(code);
-      group_.stop_for(Fault{code});
+      end_motion(code, to_string(code));
       leave(false);
     }
   }

@@ -17,6 +17,9 @@ namespace indurop::robot {
 
 class ConveyorTracking {
  public:
+  static constexpr double kOnProduct =
+      0.4;  // part of the accelerations that tracking leaves for motions on the product
+
   ConveyorTracking(Robot& robot, GroupPort& group, Plans& plans) noexcept;
 
   // Reads the belts. All functions of this class are real-time safe.
@@ -33,6 +36,10 @@ class ConveyorTracking {
   // Returns whether the product moves with a belt; or should, but its position is unknown.
   [[nodiscard]] bool product_moves() const noexcept { return tracking_.known(); }
   [[nodiscard]] bool product_lost() const noexcept { return product_lost_; }
+  // The same for a carrier that is known. Errors: Belt.
+  ErrorCode track(const Tracking::Carrier& carrier) noexcept;
+  // The product's coordinates no longer move.
+  void release() noexcept;
   // Brings the tool to where a motion has to begin: at rest on the product, or off any belt. Returns false if it is
   // not there yet. Errors: Unreachable, Speed; it then never will be.
   [[nodiscard]] bool reaches(bool on_product, ErrorCode& error) noexcept;
@@ -72,6 +79,7 @@ class ConveyorTracking {
   void steer() noexcept;
   void end_tracking() noexcept;
   void lose_product(const char* why) noexcept;
+  void end_motion(ErrorCode code, const char* why) noexcept;
 
   Robot& robot_;
   GroupPort& group_;

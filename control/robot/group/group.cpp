@@ -19,7 +19,7 @@ Group::Group(GroupParts parts)
       gate_(robot_, *this, mode_, {conveyor_, correction_}),
       power_(robot_, *this, torques_),
       stops_(robot_, *this, gate_, {conveyor_, correction_}, power_),
-      job_motions_(robot_, plans_, resuming_, shelf_, torques_, correction_),
+      job_motions_(robot_, plans_, resuming_, shelf_, torques_, {conveyor_, correction_}),
       services_(robot_, *this, {plans_, resuming_, conveyor_, queue_, mode_, stops_, power_, job_motions_}),
       service_(robot_, *this, plans_, services_),
       answers_(robot_.job),
@@ -116,7 +116,8 @@ void Group::forget_plans() noexcept {
 }
 
 void Group::set_job_aside() noexcept {
-  if (robot_.job.running() && !shelf_.set_job_aside()) {
+  // What a belt carries cannot be resumed: by then it is elsewhere.
+  if (robot_.job.running() && !conveyor_.on() && !shelf_.set_job_aside()) {
     resuming_.set_aside();
   }
 }

@@ -12,6 +12,27 @@ void JobMotions::halt() noexcept {
   }
 }
 
+Fault JobMotions::move(const MoveCommand& command) noexcept {
+  MoveCommand motion = command;
+  motion.acceleration *= conveyor_.is_synchronized() ? ConveyorTracking::kOnProduct : 1;
+  plans_.ahead().add(motion);
+  return {};
+}
+
+Fault JobMotions::track(const BeltWay& way) noexcept {
+  const Quat back = way.origin.orientation.conjugate();
+  const Pose product{back * (way.frame.position - way.origin.position), back * way.frame.orientation};
+  return {conveyor_.track({way.turns, way.belt - 1, way.origin, product})};
+}
+
+bool JobMotions::ride(bool on_product, ErrorCode& error) noexcept {
+  if (on_product && !conveyor_.product_moves()) {
+    error = ErrorCode::Belt;
+    return false;
+  }
+  return conveyor_.reaches(on_product, error);
+}
+
 double JobMotions::tip_speed() const noexcept {
   const Jacobian jacobian = robot_.tool.arm().jacobian(robot_.commanded());
   return (jacobian * robot_.axes.last_speed()).head<3>().norm();

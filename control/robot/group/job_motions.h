@@ -4,7 +4,7 @@
 #pragma once
 
 #include "control/robot/group/interrupt_shelf.h"
-#include "control/robot/group/path_correction.h"
+#include "control/robot/group/off_path.h"
 #include "control/robot/group/plans.h"
 #include "control/robot/group/resuming.h"
 #include "control/robot/group/robot.h"
@@ -15,8 +15,14 @@ namespace indurop::robot {
 class JobMotions final : public MotionPort {
  public:
   JobMotions(Robot& robot, Plans& plans, Resuming& resuming, InterruptShelf& shelf, TorqueWatch& torques,
-             PathCorrection& correction) noexcept
-      : robot_(robot), plans_(plans), resuming_(resuming), shelf_(shelf), torques_(torques), correction_(correction) {}
+             const OffPath& off_path) noexcept
+      : robot_(robot),
+        plans_(plans),
+        resuming_(resuming),
+        shelf_(shelf),
+        torques_(torques),
+        conveyor_(off_path.conveyor),
+        correction_(off_path.correction) {}
 
   [[nodiscard]] bool ready() const noexcept override { return plans_.ahead().has_room(); }
   // An interrupted job keeps what was to be planned.
@@ -25,16 +31,17 @@ class JobMotions final : public MotionPort {
            correction_.at_rest();
   }
   [[nodiscard]] bool is_moving() const noexcept override { return !robot_.follower.at_rest(); }
-  Fault move(const MoveCommand& command) noexcept override {
-    plans_.ahead().add(command);
-    return {};
-  }
+  Fault move(const MoveCommand& command) noexcept override;
   void halt() noexcept override;
   bool take_tool(int tool) noexcept override;
   bool take_load(int load) noexcept override;
   bool begin_correction(const CorrectionWay& way) noexcept override;
   bool end_correction() noexcept override;
   void correct(const Vec3& shift) noexcept override { correction_.want(shift); }
+  Fault track(const BeltWay& way) noexcept override;
+  bool ride(bool on_product, ErrorCode& error) noexcept override;
+  [[nodiscard]] Pose product() const noexcept override { return conveyor_.product_ahead(); }
+  void release_product() noexcept override { conveyor_.release(); }
   [[nodiscard]] PathPlace place() const noexcept override { return robot_.follower.path_place(); }
 
   [[nodiscard]] double tip_speed() const noexcept override;
@@ -52,6 +59,7 @@ class JobMotions final : public MotionPort {
   Resuming& resuming_;
   InterruptShelf& shelf_;
   TorqueWatch& torques_;
+  ConveyorTracking& conveyor_;
   PathCorrection& correction_;
 };
 

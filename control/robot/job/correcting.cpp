@@ -22,7 +22,7 @@ StepValues::Flaw Correcting::run(const Step& step, const JobPlaces& places, Moti
     return {"CORRECT is on already; end it with CORRECT OFF before"};
   }
   const JobCorrection& correction = book_.corrections[static_cast<std::size_t>(step.slot)];
-  const Quat axes = step.index >= 0 ? places.frame_axes(step.index) : Quat::Identity();
+  const Quat axes = step.index >= 0 ? places.frame(step.index).orientation : Quat::Identity();
   done = port.begin_correction({axes, correction.by_tool, correction.limit, correction.rate});
   if (done) {
     now_ = step.slot;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/job/each_period.h"
 
+#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -42,6 +43,36 @@ void EachPeriodReader::follow() {
   Step& added = draft_.add(Op::Follow);
   added.index = step.index;
   added.formula = step.formula;
+}
+
+// Parses "TRACK part ON BELT 1 ALONG conveyor", "TRACK part ON TABLE 2 ABOUT centre", "TRACK OFF"
+void EachPeriodReader::track() {
+  Step& step = draft_.add(Op::Track);
+  if (line_.accept("OFF")) {
+    return;
+  }
+  names_.refer(JobNames::To::Tracked, "frame");
+  const bool on = !line_.failed() && line_.accept("ON");
+  const bool table = on && line_.accept("TABLE");
+  if (!line_.failed() && !(on && (table || line_.accept("BELT")))) {
+    line_.error(line_.peek(), "expected ON BELT or ON TABLE and its number, found " + JobLine::shown(line_.peek()) +
+                                  "; TRACK part ON BELT 1 ALONG conveyor, or TRACK OFF");
+  }
+  step.slot = table ? 1 : 0;
+  const JobToken number = line_.peek();
+  if (!line_.failed() && line_.numbers(1, &step.value, "the number of the belt") &&
+      !(step.value >= 1 && step.value <= static_cast<double>(kBelts) && step.value == std::floor(step.value))) {
+    line_.error(number, "belts have numbers from 1 to " + std::to_string(kBelts));
+  }
+  const char* const word = table ? "ABOUT" : "ALONG";
+  if (!line_.failed() && !line_.accept(word)) {
+    line_.error(line_.peek(), std::string("expected ") + word + " and the frame of the " +
+                                  (table ? "table, whose z axis it turns about" : "belt, whose x axis it moves along") +
+                                  ", found " + JobLine::shown(line_.peek()));
+  }
+  if (!line_.failed()) {
+    names_.refer(JobNames::To::Origin, "frame");
+  }
 }
 
 // A job that is called has other variables, so an expression that remains in use must not read any.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements whose expressions are evaluated in each period from there on: corrections of the path, and outputs that
-// follow the motion.
+// Statements whose expressions are evaluated in each period from there on: corrections of the path, outputs that
+// follow the motion, and frames that move.
 
 #pragma once
 
@@ -17,6 +17,7 @@ class EachPeriodReader {
 
   void correct();
   void follow();
+  void track();
 
  private:
   bool amount(double& to, const char* word, const char* unit, const char* wrong);

@@ -40,6 +40,8 @@ enum class Op : std::uint8_t {
   WaitTime,      // value: s
   Ask,           // slot: question of the book; timeout; index: as WaitUntil
   Call,          // index: job; formula: its first argument; mid: number of arguments; slot: variable for its result
+  Track,         // index: computed place of the frame, -1: none moves; mid: frame along or about which it does; value:
+                 // belt, from 1; slot: 1 if it is a table
   Arm,           // index: job; formula; slot: interrupt of the book
   Disarm,        // index: job
   Return,        // formula: the result, -1: none

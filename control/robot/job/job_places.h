@@ -28,8 +28,8 @@ class JobPlaces {
   // The axes of the frame in which a point was given.
   [[nodiscard]] Quat axes(int point) const noexcept;
 
-  // The axes of a frame of the book.
-  [[nodiscard]] Quat frame_axes(int frame) const noexcept { return frame_pose(frame).orientation; }
+  // A frame of the book.
+  [[nodiscard]] Pose frame(int index) const noexcept { return frame_pose(index); }
 
   // Whether the last UNTIL has ended its motion, and where.
   struct Finding {

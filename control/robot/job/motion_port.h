@@ -16,6 +16,14 @@ struct CorrectionWay {
   double rate = 0;               // m/s
 };
 
+// A frame that moves with a belt, along x of `origin`, or with a table, about z of it.
+struct BeltWay {
+  int belt = 1;
+  bool turns = false;
+  Pose origin;
+  Pose frame;  // where it is now, in the base
+};
+
 class MotionPort {
  public:
   virtual ~MotionPort() = default;
@@ -38,6 +46,14 @@ class MotionPort {
   virtual bool end_correction() noexcept { return true; }
   // How far to shift from now on, m along the axes; what exceeds the limit is cut off.
   virtual void correct(const Vec3&) noexcept {}
+  // Lets the product's coordinates move with a belt. Errors: Belt.
+  virtual Fault track(const BeltWay&) noexcept { return {}; }
+  // Brings the tool to where a motion has to begin when all have ended: at rest on the product, or off any belt.
+  // Returns false if it is not there yet; with an error it never will be. Errors: Belt, Unreachable, Speed.
+  virtual bool ride(bool /*on_product*/, ErrorCode& /*error*/) noexcept { return true; }
+  // The product's coordinates for the next motion on it; and they no longer move.
+  [[nodiscard]] virtual Pose product() const noexcept { return {}; }
+  virtual void release_product() noexcept {}
   [[nodiscard]] virtual PathPlace place() const noexcept { return {}; }
   // m/s of the tip of the selected tool, of the last set point.
   [[nodiscard]] virtual double tip_speed() const noexcept { return 0; }

@@ -220,10 +220,14 @@ void JobNames::resolve(const Reference& reference) {
       resolve_job(reference, step);
       break;
     case To::Frame:
-      step.index = find(known_.frames, reference.at.name);
-      if (step.index < 0) {
-        error(reference.at,
-              robot::no_such("frame", reference.at.name, suggested(draft_.book().frames), "FRAME", kFrame));
+      step.index = frame_called(reference.at);
+      break;
+    case To::Origin:
+      step.mid = frame_called(reference.at);
+      break;
+    case To::Tracked:
+      if (frame_called(reference.at) >= 0) {
+        resolve_computed(reference, step);
       }
       break;
     case To::Computed:
@@ -233,6 +237,14 @@ void JobNames::resolve(const Reference& reference) {
     case To::Mid:
       resolve_point(reference, step);
   }
+}
+
+int JobNames::frame_called(const Mention& at) {
+  const int frame = find(known_.frames, at.name);
+  if (frame < 0) {
+    error(at, robot::no_such("frame", at.name, suggested(draft_.book().frames), "FRAME", kFrame));
+  }
+  return frame;
 }
 
 void JobNames::resolve_label(const Reference& reference, Step& step) {

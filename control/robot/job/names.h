@@ -21,7 +21,7 @@ namespace indurop::robot {
 class JobNames {
  public:
   // What the name stands for in a step.
-  enum class To { Target, Mid, Job, Label, Tool, Computed, Frame };
+  enum class To { Target, Mid, Job, Label, Tool, Computed, Frame, Tracked, Origin };
   // What the name stands for in a declaration.
   enum class In { PointFrame, FramePoint, FrameTool, ToolPoint, ZoneFrame, PlaceName };
 
@@ -83,6 +83,7 @@ class JobNames {
   void resolve_bodies();
   void resolve_places();
   void resolve(const Reference& reference);
+  int frame_called(const Mention& at);
   void resolve_label(const Reference& reference, Step& step);
   void resolve_job(const Reference& reference, Step& step);
   void resolve_point(const Reference& reference, Step& step);

@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t kMostSteps = 20000;
 constexpr const char* kStatements =
     "POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, VAR, SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SEARCH, CORRECT, "
+    "TRACK, "
     "FOLLOW, SET, PULSE, WAIT, ASK, CALL, ON, OFF, RETURN, RAISE, MESSAGE, LABEL, GOTO, IF, ELSEIF, ELSE, WHILE, FOR, "
     "LOOP, EXIT, "
     "SWITCH, CASE, DEFAULT, TRY, RECOVER and END";
@@ -79,6 +80,7 @@ void JobParser::statement() {
       {"SEARCH", [](JobParser& p) { p.motions_.search(); }},
       {"CORRECT", [](JobParser& p) { p.each_period_.correct(); }},
       {"FOLLOW", [](JobParser& p) { p.each_period_.follow(); }},
+      {"TRACK", [](JobParser& p) { p.each_period_.track(); }},
       {"SET", [](JobParser& p) { p.values_.set(); }},
       {"PULSE", [](JobParser& p) { p.values_.pulse(); }},
       {"WAIT",

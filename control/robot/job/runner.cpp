@@ -1,89 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/job/runner.h"
 
-#include <algorithm>
-#include <cmath>
-#include <span>
-
 #include "control/robot/job/motion_line.h"
+#include "control/robot/job/step_needs.h"
 
 namespace indurop::robot {
 
 namespace {
 
 constexpr int kStepsPerPeriod = 64;  // an endless loop without waiting continues in the next period
-constexpr int kPartsPerStep = 4;     // of formulas; a longer formula counts as several steps
-constexpr int kPartsOfPlace = 16;    // that a computed place counts as
-
-std::span<const Formula> formulas_of(const JobBook& book, const Step& step) noexcept {
-  if (step.formula < 0) {
-    return {};
-  }
-  const auto first = static_cast<std::size_t>(step.formula);
-  switch (step.op) {
-    case Op::Call:
-      return std::span(book.formulas).subspan(first, static_cast<std::size_t>(step.mid));
-    case Op::Assign:
-      return std::span(book.formulas).subspan(first, step.mid > 0 ? 2 : 1);
-    case Op::Move:
-      return std::span(book.formulas).subspan(first, step.turns ? 6 : 3);
-    default:
-      return std::span(book.formulas).subspan(first, 1);
-  }
-}
-
-bool has_until(const JobBook& book, const Step& step) noexcept {
-  const MotionExtras* const extras = step.op == Op::Move ? book.extras_of(step) : nullptr;
-  return extras != nullptr && extras->until >= 0;
-}
-
-bool settings_read_world(const JobBook& book, const Step& motion) noexcept {
-  const MotionExtras* const extras = book.extras_of(motion);
-  return extras != nullptr && std::any_of(extras->settings.begin(), extras->settings.end(), [&](const Step& each) {
-           return each.formula >= 0 && book.formulas[static_cast<std::size_t>(each.formula)].reads().world();
-         });
-}
-
-// Returns whether the step reads or changes the outside world.
-bool touches_world(const JobBook& book, const Step& step) noexcept {
-  switch (step.op) {
-    case Op::Set:
-    case Op::Message:
-    case Op::Raise:
-    case Op::WaitUntil:
-    case Op::WaitTime:
-    case Op::Ask:
-    case Op::Tool:
-    case Op::Load:
-    case Op::Correct:
-    case Op::Arm:
-    case Op::Follow:
-    case Op::Disarm:
-    case Op::Try:
-    case Op::EndTry:
-    case Op::Recover:
-      return true;
-    case Op::Place:
-      return book.places[static_cast<std::size_t>(step.mid)].reads.world();
-    case Op::Move:
-      if (step.index == kHere || has_until(book, step) || settings_read_world(book, step)) {
-        return true;
-      }
-      break;
-    default:
-      break;
-  }
-  const auto formulas = formulas_of(book, step);
-  return std::any_of(formulas.begin(), formulas.end(), [](const Formula& each) { return each.reads().world(); });
-}
-
-int cost_of(const JobBook& book, const Step& step) noexcept {
-  int parts = step.op == Op::Place ? kPartsOfPlace : 0;
-  for (const Formula& formula : formulas_of(book, step)) {
-    parts += static_cast<int>(formula.size());
-  }
-  return 1 + parts / kPartsPerStep;
-}
 
 }  // namespace
 
@@ -92,10 +17,11 @@ bool JobRunner::compute(int formula, Signals& signals, const MotionPort& port, d
 }
 
 JobRunner::Next JobRunner::done(const StepValues::Flaw& flaw) noexcept {
-  if (!flaw.ok()) {
-    refuse({ErrorCode::Line}, flaw.why, flaw.column);
+  if (flaw.ok()) {
+    return Next::Go;
   }
-  return flaw.ok() ? Next::Go : Next::Wait;
+  refuse({ErrorCode::Line}, flaw.why, flaw.column);
+  return Next::Wait;
 }
 
 void JobRunner::stop() noexcept {
@@ -147,7 +73,7 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
     Next next = Next::Wait;
     if (step == nullptr) {
       next = leave(signals, port);
-    } else if (search_.ticket == 0 && pauses_.before(jobs_)) {
+    } else if (search_.ticket == 0 && !riding_.rides() && pauses_.before(jobs_)) {
       if (port.settled()) {
         state_ = JobState::Paused;
         line_ = step->line;
@@ -190,7 +116,7 @@ JobRunner::Next JobRunner::leave(Signals& signals, MotionPort& port) noexcept {
     jobs_.finish();
     return Next::Go;
   }
-  if (port.settled()) {
+  if (port.settled() && riding_.end(port)) {
     correcting_.reset();
     outputs_.followed.reset(signals);
     state_ = JobState::Ended;
@@ -248,6 +174,7 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
     case Op::Tool:
     case Op::Load:
     case Op::Correct:
+    case Op::Track:
       next = select(step, port);
       break;
     case Op::Assign:
@@ -282,7 +209,11 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
 JobRunner::Next JobRunner::select(const Step& step, MotionPort& port) noexcept {
   bool is_done = false;
   StepValues::Flaw flaw;
-  if (step.op == Op::Correct) {
+  if (step.op == Op::Track) {
+    flaw = riding_.run(step, places_, port, is_done);
+  } else if (riding_.rides()) {
+    flaw = {"tool, load and correction must not change while the tool moves with a belt; end that with TRACK OFF"};
+  } else if (step.op == Op::Correct) {
     flaw = correcting_.run(step, places_, port, is_done);
   } else if (correcting_.on()) {
     flaw = {"tool and load must not change while motions are corrected; end that with CORRECT OFF before"};
@@ -300,7 +231,9 @@ bool JobRunner::command_motion(const Step& step, Signals& signals, MotionPort& p
   if (!port.ready()) {
     return false;
   }
-  if (done(correcting_.check(step)) == Next::Wait) {
+  bool is_ready = false;
+  if (done(correcting_.check(step)) == Next::Wait ||
+      done(riding_.prepare(step, places_, port, is_ready)) == Next::Wait || !is_ready) {
     return false;
   }
   if (in_job_ && (step.move == Move::Circle || step.move == Move::Spline)) {
@@ -325,8 +258,8 @@ bool JobRunner::command_motion(const Step& step, Signals& signals, MotionPort& p
 
 JobRunner::Next JobRunner::output(const Step& step, Signals& signals, const MotionPort& port) noexcept {
   bool is_done = false;
-  const auto flaw = outputs_.run(step, ticket_, values_, signals, port, is_done);
-  return done(flaw) == Next::Go && is_done ? Next::Go : Next::Wait;
+  return done(outputs_.run(step, ticket_, values_, signals, port, is_done)) == Next::Go && is_done ? Next::Go
+                                                                                                   : Next::Wait;
 }
 
 JobRunner::Next JobRunner::branch(const Step& step, Signals& signals, const MotionPort& port) noexcept {

@@ -17,6 +17,7 @@
 #include "control/robot/job/motion_port.h"
 #include "control/robot/job/open_question.h"
 #include "control/robot/job/outputs.h"
+#include "control/robot/job/riding.h"
 #include "control/robot/job/step_motions.h"
 #include "control/robot/job/step_values.h"
 #include "control/robot/kinematics/errors.h"
@@ -33,6 +34,7 @@ class JobRunner {
         motions_(book, places_, values_),
         question_(book),
         correcting_(book),
+        riding_(book),
         interrupts_(book) {}
   JobRunner(const JobRunner&) = delete;
   JobRunner& operator=(const JobRunner&) = delete;
@@ -127,6 +129,7 @@ class JobRunner {
   double waited_ = 0;  // s in the present step
   OpenQuestion question_;
   Correcting correcting_;
+  Riding riding_;
   MotionSettings settings_;
   int load_ = 0;
   JobOutputs outputs_;

@@ -13,8 +13,8 @@ namespace indurop::robot {
 bool JobRunner::serve_interrupts(Signals& signals, MotionPort& port) noexcept {
   interrupts_.monitor(signals);
   if (interrupts_.is(Interrupts::Phase::None)) {
-    if (!interrupts_.any_pending() || search_.met || correcting_.on()) {
-      return false;  // what comes to rest for UNTIL has no path to return to, and a corrected robot is not on it
+    if (!interrupts_.any_pending() || search_.met || correcting_.on() || riding_.rides()) {
+      return false;  // what comes to rest for UNTIL has no path to return to, others are not on their path
     }
     if (jobs_.is_full()) {
       fail({ErrorCode::Line}, "an interrupt came here, but jobs call each other too deep for another one", 0);

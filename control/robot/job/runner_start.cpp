@@ -22,6 +22,7 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   question_.close();
   search_ = {};
   correcting_.reset();
+  riding_.reset();
   outputs_.followed.forget();
   places_.reset();
   values_.reset();
@@ -83,6 +84,7 @@ void JobRunner::forget() noexcept {
   outputs_.on_path = {};
   search_ = {};
   correcting_.reset();
+  riding_.reset();
   outputs_.followed.forget();
   places_.reset();
   interrupts_.reset();

@@ -179,8 +179,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"MOVE A\n",
             "a.job:1:1: error: unknown statement 'MOVE'; known are POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, "
             "VAR, "
-            "SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SEARCH, CORRECT, FOLLOW, SET, PULSE, WAIT, ASK, CALL, ON, OFF, "
-            "RETURN, RAISE, "
+            "SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SEARCH, CORRECT, TRACK, FOLLOW, SET, PULSE, WAIT, ASK, CALL, "
+            "ON, "
+            "OFF, RETURN, RAISE, "
             "MESSAGE, "
             "LABEL, GOTO, IF, ELSEIF, ELSE, WHILE, FOR, LOOP, EXIT, SWITCH, CASE, DEFAULT, TRY, RECOVER and END"},
         Bad{"  MOVJ ABOV\nPOINT ABOVE = JOINT 0 0 0 0 0 0\n",
