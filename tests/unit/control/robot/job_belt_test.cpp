@@ -3,10 +3,8 @@
 // and what ends such motions. Every set point is judged.
 #include <gmock/gmock.h>
 
-#include <map>
-
-#include "belt_cell.h"
 #include "control/robot/job/job.h"
+#include "job_belt_cell.h"
 
 namespace indurop::robot {
 namespace {
@@ -24,46 +22,15 @@ const std::string kPlaces =
     "POINT P2 = POSE 500 100 400 RPY 180 0 180\nPOINT BIN = POSE 400 200 400 RPY 180 0 180\n";
 const std::string kBegin = kPlaces + "MOVJ BIN\nWAIT 0.5s\nSET STEP = 1\nTRACK part ON BELT 1 ALONG conveyor\n";
 
-class Job_belts : public Belts {
+class Job_belts : public JobOnBelt<Belts> {
  protected:
-  void SetUp() override {}
   void begin(const std::string& job, double speed, bool turns = false) {
-    Settings settings = in_tick();
-    settings.period = std::chrono::milliseconds(10);
-    cell.sut = controller_of(cell_urdf(), job, settings);
-    cell.in.service = {};
     belt = [speed](double at) { return speed * at; };
     table = turns;
     origin = frame_of(turns ? Eight{400, 0, 250, 0, 0, 0} : kAlongY);
     object = turns ? frame_of({100, 0, 0, 0, 0, 0}) : KDL::Frame::Identity();
-    for (std::size_t i = 0; i < cell.sut->signals().size(); ++i) {
-      values[cell.sut->signals()[i]] = &cell.values[i];
-    }
-    judge = Judge(0.01, cell_urdf());
-    step();
-    cell.ask(Service::GroupEnable);
-    ASSERT_TRUE(until([&] { return cell.out.state == GroupState::Standby; }));
-    cell.in.service.job = 1;
-    cell.ask(Service::JobStart);
+    run_job(job);
   }
-  // The step that the job has come to; with the first one the product is there where the belt is then.
-  [[nodiscard]] bool until_step(double number) {
-    return until([&] {
-      if (*values["STEP"] == 1 && !tracked) {
-        tracked = true;
-        zero = belt(time);
-      }
-      return *values["STEP"] >= number || ended();
-    });
-  }
-  [[nodiscard]] bool ended() const { return cell.out.done == cell.in.service.number; }
-  void expect_end() {
-    ASSERT_TRUE(until([&] { return ended(); }));
-    EXPECT_EQ(cell.out.error, ErrorCode::Ok) << message();
-    EXPECT_EQ(cell.out.state, GroupState::Standby);
-  }
-  std::map<std::string, double*> values;
-  bool tracked = false;
 };
 
 TEST_F(Job_belts, Pick_a_part_that_moves) {
