@@ -109,7 +109,7 @@ else
 deb: ## Debian packages of the committed tree in build/deb, checked by lintian; ARCH=arm64: cross-compiled, in build/deb-arm64, as root
 	@.ci/install-deps build deb
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
-	@cmake --build --preset release -j $(JOBS) --target indurop_page || true
+	@for target in indurop_page indurop_opcua; do cmake --build --preset release -j $(JOBS) --target $$target || true; done
 	@JOBS=$(JOBS) nice cmake/packaging/make_deb.sh
 endif
 
