@@ -19,6 +19,7 @@ struct FileNames {
   double tool_speed = 0;          // mm/s, as in Settings; 0: no limit
   double clearance = 5;           // mm
   std::string ignored{};          // Settings::ignore_collisions
+  std::vector<double> rotor_inertia{};
 };
 
 struct Findings {

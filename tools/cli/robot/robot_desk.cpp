@@ -35,6 +35,23 @@ config::Config config_of(const std::string& file, const std::string& board) {
   return found == checked.plant.boards.end() ? config::Config{} : found->config;
 }
 
+// Returns the robot that is chosen of these. `where`: what has them, for messages.
+Result<RobotFiles, Failure> chosen_of(std::vector<RobotFiles> robots, const RobotChoice& choice,
+                                      const std::string& where) {
+  std::string known;
+  for (const RobotFiles& one : robots) {
+    known += (known.empty() ? "" : ", ") + one.module;
+  }
+  std::erase_if(robots, [&](const RobotFiles& one) { return !choice.module.empty() && one.module != choice.module; });
+  if (robots.size() == 1) {
+    return std::move(robots.front());
+  }
+  if (known.empty()) {
+    return Failure{kFailed, fmt::format("{} has no robot (a module with the property urdf or jobs)", where)};
+  }
+  return Failure{kUsage, fmt::format("{} has the robots {}: choose one with --module", where, known)};
+}
+
 }  // namespace
 
 int read_place(Context& context, const vars::Store& store, const RobotChoice& choice, RobotPlace& to) {
@@ -81,20 +98,22 @@ Result<RobotFiles, Failure> files_of_node(const std::string& node, const RobotCh
   }
   const std::string usual = run.plant_file[0] != '\0' ? run.plant_file : run.config_file;
   const std::string config = choice.config.empty() ? usual : choice.config;
-  std::vector<RobotFiles> robots = robot_files_of(config_of(config, run.board));
-  std::string known;
-  for (const RobotFiles& one : robots) {
-    known += (known.empty() ? "" : ", ") + one.module;
+  return chosen_of(robot_files_of(config_of(config, run.board)), choice,
+                   fmt::format("node '{}' ({})", chosen->node, config));
+}
+
+Result<RobotFiles, Failure> files_of_config(const RobotChoice& choice) {
+  const config::CheckOptions options{.files = false, .adjust = true};
+  std::vector<RobotFiles> robots;
+  if (!config::is_plant_file(choice.config)) {
+    robots = robot_files_of(load_config(choice.config, options).config);
+  } else {
+    for (const auto& board : load_plant(choice.config, options).plant.boards) {
+      const std::vector<RobotFiles> more = robot_files_of(board.config);
+      robots.insert(robots.end(), more.begin(), more.end());
+    }
   }
-  std::erase_if(robots, [&](const RobotFiles& one) { return !choice.module.empty() && one.module != choice.module; });
-  if (robots.size() == 1) {
-    return std::move(robots.front());
-  }
-  if (known.empty()) {
-    return Failure{kFailed, fmt::format("node '{}' has no robot (a module with the property urdf or jobs in {})",
-                                        chosen->node, config)};
-  }
-  return Failure{kUsage, fmt::format("node '{}' has the robots {}: choose one with --module", chosen->node, known)};
+  return chosen_of(std::move(robots), choice, choice.config);
 }
 
 }  // namespace indurop::tools

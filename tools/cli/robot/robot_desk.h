@@ -30,5 +30,7 @@ int read_place(Context& context, const vars::Store& store, const RobotChoice& ch
 // Returns the files that the node's robot reads. Failures: no node, no robot in it, several and none chosen, files of a
 // deployment (`to_change`: they are copies, which the next deployment replaces).
 Result<RobotFiles, Failure> files_of_node(const std::string& node, const RobotChoice& choice, bool to_change);
+// The same without a node, from the configuration that is chosen; for a plant, of all boards.
+Result<RobotFiles, Failure> files_of_config(const RobotChoice& choice);
 
 }  // namespace indurop::tools

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop robot: shows and teaches points, jogs the robot, and answers the questions of its jobs.
 #include "tools/cli/robot/hand.h"
+#include "tools/cli/robot/identifying.h"
 #include "tools/cli/robot/questions.h"
 #include "tools/cli/robot/reload.h"
 #include "tools/cli/robot/teaching.h"
@@ -15,6 +16,7 @@ struct RobotOptions {
   robot::TeachOrder order;
   Hand hand{"", "base"};
   RobotAnswer answer;
+  std::string recording;
   std::int64_t wait_ns = 0;
   std::function<int(Context&)> chosen;
 };
@@ -81,6 +83,19 @@ void declare_jog(base::Options& app, Context& context, RobotOptions& options) {
   add_remote_options(command, context);
 }
 
+void declare_identify(base::Options& app, Context& context, RobotOptions& options) {
+  base::Options& command =
+      app.command("identify", "Find mass and centre of what the arm holds, and friction, from a recording", [&options] {
+        options.chosen = [&options](Context& c) { return identify_load(c, options.choice, options.recording); };
+      });
+  command.add("recording", "FILE", options.recording, "Recording of AXIS_STATE, with torques, while all axes move")
+      .required()
+      .completes(base::Completion::File);
+  add_choice(command, context, options);
+  add_files(command, options);
+  add_format_option(command, context, {Format::Table, Format::Json, Format::Csv});
+}
+
 void declare_question(base::Options& app, Context& context, RobotOptions& options) {
   base::Options& command = app.command("question", "Show the question that the job asks the operator", [&options] {
     options.chosen = [&options](Context& c) { return show_question(c, options.choice, options.wait_ns); };
@@ -112,6 +127,7 @@ Action declare_robot(base::Options& app, Context& context) {
   declare_teach(app, context, *options);
   declare_reload(app, context, *options);
   declare_jog(app, context, *options);
+  declare_identify(app, context, *options);
   declare_question(app, context, *options);
   declare_answer(app, context, *options);
   return [options](Context& c) { return options->chosen(c); };
@@ -132,7 +148,8 @@ const Verb kRobotVerb{
     "  indurop robot teach CORNER --in pallet --file points.job\n"
     "  indurop robot reload\n"
     "  indurop robot points\n"
-    "  indurop robot answer left\n",
+    "  indurop robot answer left\n"
+    "  indurop robot identify swing.mcap --config module.xml\n",
     &declare_robot};
 
 }  // namespace indurop::tools

@@ -38,6 +38,14 @@ robot::FileNames files_of(const config::Config& config, const config::Module& mo
   for (std::string word; words >> word;) {
     names.jobs.push_back(in_folder_of(config, word));
   }
+  robot::Settings settings;
+  static_cast<void>(robot::take_properties(
+      [&](const char* name) {
+        const config::Property* const given = property(module, name);
+        return given == nullptr ? std::string() : given->value;
+      },
+      settings));
+  names.rotor_inertia = settings.rotor_inertia;
   return names;
 }
 

@@ -72,7 +72,8 @@ class Random_job_belts : public JobOnBelt<RandomBelts> {
         << message() << " step " << *values["STEP"];
     cell.in.hold = false;
     cell.in.speed_override = 100;
-    (*values["STEP"] == 4 ? good : bad) += 1;
+    good += *values["STEP"] == 4 ? 1 : 0;
+    bad += *values["STEP"] == 4 ? 0 : 1;
   }
 };
 
