@@ -311,7 +311,7 @@ ReadFiles read_files(const FileNames& names) {
     const Inverse inverse(read.model->arm);
     if (read.errors.empty()) {
       sort_out(place_tools(read.book, read.model->arm), read);
-      take_over(place_frames(read.book, read.model->arm), read.errors);
+      sort_out(place_frames(read.book, read.model->arm), read);
     }
     const bool placed = read.errors.empty();
     take_over(check_points(read.book, read.model->arm), read.errors);

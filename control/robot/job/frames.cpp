@@ -8,6 +8,7 @@
 
 #include "control/robot/job/job.h"
 #include "control/robot/kinematics/arm.h"
+#include "control/robot/kinematics/frame_fit.h"
 #include "control/robot/kinematics/tip_fit.h"
 
 namespace indurop::robot {
@@ -76,20 +77,51 @@ std::vector<base::Diagnostic> place_tools(JobBook& book, const Arm& arm) {
   return found;
 }
 
+namespace {
+
+// Finds the frame from its matched points; a note states how well they agree.
+base::Diagnostic match(WorkFrame& frame, const JobBook& book, const Arm& touching) {
+  std::vector<MatchedPlace> places;
+  for (std::size_t i = 0; i < frame.matched.size(); ++i) {
+    const Target& target = book.points[static_cast<std::size_t>(frame.matched[i])].target;
+    places.push_back({frame.in_frame[i], place_of(target, touching)});
+  }
+  const FrameFit fit = fit_frame(places);
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << "frame '" << frame.name << "': ";
+  if (!fit.wrong.empty()) {
+    const std::string& worst = book.points[static_cast<std::size_t>(frame.matched[fit.worst])].name;
+    text << fit.wrong << (fit.most_error > 0 ? " ('" + worst + "')" : "");
+    return {base::Diagnostic::Severity::Error, frame.file, frame.place, text.str()};
+  }
+  frame.pose = fit.frame;
+  // Without a sign of 0.
+  const Vec3 rpy = (to_rpy(fit.frame.orientation) * (100 * 180 / kPi)).array().round() / 100 + 0.0;
+  text << "POSE " << shown_tip(fit.frame.position) << " RPY " << rpy[0] << " " << rpy[1] << " " << rpy[2]
+       << "; its points agree within " << 1000 * fit.most_error << " mm, " << 1000 * fit.mean_error << " mm on average";
+  return {base::Diagnostic::Severity::Note, frame.file, frame.place, text.str()};
+}
+
+}  // namespace
+
 std::vector<base::Diagnostic> place_frames(JobBook& book, const Arm& arm) {
-  std::vector<base::Diagnostic> errors;
+  std::vector<base::Diagnostic> found;
   for (WorkFrame& frame : book.frames) {
     if (!frame.is_taught) {
       continue;
     }
     const Arm touching = arm.with_tool(book.tools[static_cast<std::size_t>(frame.tool)].tip);
+    if (!frame.in_frame.empty()) {
+      found.push_back(match(frame, book, touching));
+      continue;
+    }
     std::array<Vec3, 3> at;
     for (std::size_t i = 0; i < at.size(); ++i) {
       at[i] = place_of(book.points[static_cast<std::size_t>(frame.points[i])].target, touching);
     }
     if (std::string why = taught(at, frame.pose); !why.empty()) {
-      errors.push_back({base::Diagnostic::Severity::Error, frame.file, frame.place,
-                        "frame '" + frame.name + "': " + std::move(why)});
+      found.push_back({base::Diagnostic::Severity::Error, frame.file, frame.place,
+                       "frame '" + frame.name + "': " + std::move(why)});
     }
   }
   for (Point& point : book.points) {
@@ -101,7 +133,7 @@ std::vector<base::Diagnostic> place_frames(JobBook& book, const Arm& arm) {
     point.target.pose = frame * point.in_frame;
     point.axes = frame.orientation;
   }
-  return errors;
+  return found;
 }
 
 }  // namespace indurop::robot

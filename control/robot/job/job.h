@@ -133,7 +133,8 @@ struct Point {
   std::vector<const Solutions*> known{};
 };
 
-// The position of a workpiece or a pallet: given by its pose, or taught by three points.
+// The position of a workpiece, a pallet or a camera: given by its pose, taught by three points, or found from points
+// whose places in the frame are known, too.
 struct WorkFrame {
   std::string name;
   std::string file;
@@ -141,6 +142,8 @@ struct WorkFrame {
   Pose pose;
   bool is_taught = false;
   std::array<int, 3> points{-1, -1, -1};  // origin, a point on x, a point on the side of y
+  std::vector<int> matched{};             // points of the base
+  std::vector<Vec3> in_frame{};           // the same places in the frame; empty: it is found in another way
   int tool = 0;                           // tool that touched the points
   int computed = -1;                      // computed place of the book; -1: no job computes it
 };
@@ -258,7 +261,8 @@ class Arm;
 
 // Computes the tips of taught tools; a note states for each of them how well its points agree.
 std::vector<base::Diagnostic> place_tools(JobBook& book, const Arm& arm);
-// Computes frames from their points, and points from their frames. The parser itself does not know the arm.
+// Computes frames from their points, and points from their frames; a note states how well matched points agree. The
+// parser itself does not know the arm.
 std::vector<base::Diagnostic> place_frames(JobBook& book, const Arm& arm);
 
 }  // namespace indurop::robot

@@ -100,6 +100,7 @@ void JobNames::resolve() {
   known_ = {index(book.points), index(book.frames), index(book.tools), index(book.jobs)};
   resolve_point_frames();
   resolve_frame_points();
+  resolve_matched_points();
   resolve_tool_points();
   resolve_frame_tools();
   resolve_zones();
@@ -128,15 +129,34 @@ void JobNames::resolve_frame_points() {
   std::size_t i = 0;
   for (const auto& [owner, at] : of(In::FramePoint)) {
     const std::size_t corner = i++ % 3;
-    const int point = find(known_.points, at.name);
-    if (point < 0) {
-      no_such(at, "point", suggested(book.points));
-    } else if (book.points[static_cast<std::size_t>(point)].frame >= 0) {
-      error(at, "point '" + at.name + "' is given in a frame itself; a frame is taught by points of the base");
-    } else if (owner < book.frames.size()) {
+    const int point = base_point(at);
+    if (point >= 0 && owner < book.frames.size()) {
       book.frames[owner].points[corner] = point;
     }
   }
+}
+
+void JobNames::resolve_matched_points() {
+  JobBook& book = draft_.book();
+  for (const auto& [owner, at] : of(In::FrameMatch)) {
+    const int point = base_point(at);
+    if (point >= 0 && owner < book.frames.size()) {
+      book.frames[owner].matched.push_back(point);
+    }
+  }
+}
+
+// Returns a point that a frame can be found from; -1 with an error.
+int JobNames::base_point(const Mention& at) {
+  const JobBook& book = draft_.book();
+  const int point = find(known_.points, at.name);
+  if (point < 0) {
+    no_such(at, "point", suggested(book.points));
+  } else if (book.points[static_cast<std::size_t>(point)].frame >= 0) {
+    error(at, "point '" + at.name + "' is given in a frame itself; a frame is taught by points of the base");
+    return -1;
+  }
+  return point;
 }
 
 void JobNames::resolve_tool_points() {

@@ -23,7 +23,7 @@ class JobNames {
   // What the name stands for in a step.
   enum class To { Target, Mid, Job, Label, Tool, Computed, Frame, Tracked, Origin };
   // What the name stands for in a declaration.
-  enum class In { PointFrame, FramePoint, FrameTool, ToolPoint, ZoneFrame, PlaceName };
+  enum class In { PointFrame, FramePoint, FrameMatch, FrameTool, ToolPoint, ZoneFrame, PlaceName };
 
   JobNames(JobLine& line, JobDraft& draft) : line_(line), draft_(draft) {}
 
@@ -77,6 +77,8 @@ class JobNames {
   void no_such(const Mention& at, const char* what, const std::vector<std::string>& known);
   void resolve_point_frames();
   void resolve_frame_points();
+  void resolve_matched_points();
+  int base_point(const Mention& at);
   void resolve_tool_points();
   void resolve_frame_tools();
   void resolve_zones();
@@ -98,7 +100,7 @@ class JobNames {
   JobDraft& draft_;
   Known known_;  // all names, while they are resolved
   std::vector<Reference> references_;
-  std::array<std::vector<Declared>, 6> declared_;                  // by In
+  std::array<std::vector<Declared>, 7> declared_;                  // by In
   std::vector<std::map<std::string, Label, std::less<>>> labels_;  // per job
 };
 

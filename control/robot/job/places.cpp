@@ -101,7 +101,8 @@ double PlaceReader::axis_value(int axis, double written) const noexcept {
   return shape_.slides[static_cast<std::size_t>(axis)] ? written / 1000 : radians(written);
 }
 
-// Parses "FRAME pallet = POSE 500 0 100 RPY 0 0 45", "FRAME pallet = POINTS O X Y"
+// Parses "FRAME pallet = POSE 500 0 100 RPY 0 0 45", "FRAME pallet = POINTS O X Y", "FRAME camera = MATCH P1 AT 10 20
+// 0"
 void PlaceReader::frame() {
   const JobToken name = line_.take();
   if (name.kind != JobToken::Kind::Word || !line_.accept("=")) {
@@ -123,26 +124,57 @@ void PlaceReader::frame() {
     }
   } else if (line_.accept("POINTS")) {
     frame.is_taught = true;
-    for (int i = 0; i < 3 && !line_.failed(); ++i) {
-      const JobToken point = line_.take();
-      line_.accept(",");
-      if (point.kind != JobToken::Kind::Word) {
-        line_.error(
-            point, "expected three points: the origin, one on x, one on the side of y; found " + JobLine::shown(point));
-        return;
-      }
-      names_.declare(JobNames::In::FramePoint, draft_.book().frames.size(), point);
-    }
-    if (line_.accept("TOOL")) {
-      const JobToken tool = line_.take();
-      names_.declare(JobNames::In::FrameTool, draft_.book().frames.size(), tool);
-    }
+    frame_points();
+  } else if (line_.accept("MATCH")) {
+    frame.is_taught = true;
+    matched_points(frame);
   } else {
-    line_.error(line_.peek(), "expected POSE or POINTS, found " + JobLine::shown(line_.peek()));
+    line_.error(line_.peek(), "expected POSE, POINTS or MATCH, found " + JobLine::shown(line_.peek()));
+    return;
+  }
+  if (!line_.failed() && frame.is_taught && line_.accept("TOOL")) {
+    const JobToken tool = line_.take();
+    names_.declare(JobNames::In::FrameTool, draft_.book().frames.size(), tool);
+  }
+  if (line_.failed()) {
     return;
   }
   frames_.insert(frame.name);
   draft_.book().frames.push_back(std::move(frame));
+}
+
+void PlaceReader::frame_points() {
+  for (int i = 0; i < 3 && !line_.failed(); ++i) {
+    const JobToken point = line_.take();
+    line_.accept(",");
+    if (point.kind != JobToken::Kind::Word) {
+      line_.error(point,
+                  "expected three points: the origin, one on x, one on the side of y; found " + JobLine::shown(point));
+      return;
+    }
+    names_.declare(JobNames::In::FramePoint, draft_.book().frames.size(), point);
+  }
+}
+
+// Parses "P1 AT 12.5 30 0, P2 AT 90 30 0, P3 AT 90 110 0"
+void PlaceReader::matched_points(WorkFrame& frame) {
+  constexpr std::size_t kMost = 32;
+  const JobToken start = line_.before();
+  while (!line_.failed() && line_.peek().kind == JobToken::Kind::Word && !same_word(line_.peek().text, "TOOL")) {
+    names_.declare(JobNames::In::FrameMatch, draft_.book().frames.size(), line_.take());
+    double place[3] = {};
+    if (!line_.accept("AT")) {
+      line_.error(line_.peek(), "expected AT and x y z of the point in the frame, found " +
+                                    JobLine::shown(line_.peek()) +
+                                    "; MATCH P1 AT 12.5 30 0, P2 AT 90 30 0, P3 AT 90 110 0");
+    } else if (line_.numbers(3, place, "x y z of the point in the frame, mm")) {
+      frame.in_frame.push_back(Vec3(place[0], place[1], place[2]) / 1000);
+    }
+    line_.accept(",");
+  }
+  if (!line_.failed() && (frame.in_frame.size() < 3 || frame.in_frame.size() > kMost)) {
+    line_.error(start, "a frame is found from 3 to 32 points; MATCH P1 AT 12.5 30 0, P2 AT 90 30 0, P3 AT 90 110 0");
+  }
 }
 
 }  // namespace indurop::robot

@@ -21,6 +21,8 @@ class PlaceReader {
   void frame();
 
  private:
+  void frame_points();
+  void matched_points(WorkFrame& frame);
   void joint_point(Target& target);
   void pose_point(Target& target);
   void posture(Target& target);

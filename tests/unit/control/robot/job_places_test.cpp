@@ -112,7 +112,7 @@ TEST(JobPlaces, Mistakes_are_named_where_they_are) {
        "a.job:2:6: error: an OFFSET goes from a point given as POSE"},
       {"POINT P = POSE 0 0 0 RPY 0 0 0\nMOVL P OFFSET 0, 0\n", "a.job:2:19: error: expected ','"},
       {"POINT P = POSE 0 0 0 RPY 0 0 0\nMOVL P OFFSET 0 0 -5\n", "a.job:2:17: error: expected ','"},
-      {"FRAME f = 3\n", "a.job:1:11: error: expected POSE or POINTS"},
+      {"FRAME f = 3\n", "a.job:1:11: error: expected POSE, POINTS or MATCH"},
   };
   for (const auto& [text, wanted] : cases) {
     EXPECT_THAT(base::to_text(parse_jobs({{"a.job", text}}).diagnostics), HasSubstr(wanted)) << text;
