@@ -13,8 +13,7 @@ void Correcting::skip(const Step& step) noexcept {
 
 StepValues::Flaw Correcting::run(const Step& step, const JobPlaces& places, MotionPort& port, bool& done) noexcept {
   if (step.slot < 0) {
-    done = port.end_correction();
-    now_ = done ? -1 : now_;
+    done = end(port);
     skipped_ = false;
     return {};
   }
@@ -30,6 +29,14 @@ StepValues::Flaw Correcting::run(const Step& step, const JobPlaces& places, Moti
     age_ = 0;
   }
   return {};
+}
+
+bool Correcting::end(MotionPort& port) noexcept {
+  if (on() && !port.end_correction()) {
+    return false;
+  }
+  now_ = -1;
+  return true;
 }
 
 StepValues::Flaw Correcting::check(const Step& motion) const noexcept {

@@ -24,6 +24,8 @@ class Correcting {
 
   // Executes a CORRECT, or a CORRECT OFF. `done`: whether it has been done; else it has to be tried again.
   StepValues::Flaw run(const Step& step, const JobPlaces& places, MotionPort& port, bool& done) noexcept;
+  // Ends it where all motions end. Returns false if it is not done yet.
+  bool end(MotionPort& port) noexcept;
   [[nodiscard]] bool on() const noexcept { return now_ >= 0; }
   // Returns why the motion of a step cannot be corrected; none: it can, or nothing is corrected.
   [[nodiscard]] StepValues::Flaw check(const Step& motion) const noexcept;

@@ -8,7 +8,14 @@ bool Riding::is_in_frame(int point) const noexcept {
                            book_.computed[static_cast<std::size_t>(computed_)].index;
 }
 
+void Riding::skip(const Step& step) noexcept {
+  if (step.op == Op::Track) {
+    skipped_ = step.index >= 0;
+  }
+}
+
 StepValues::Flaw Riding::run(const Step& step, const JobPlaces& places, MotionPort& port, bool& done) noexcept {
+  skipped_ = false;
   if (step.index < 0) {
     done = end(port);
     return {};
@@ -41,6 +48,9 @@ bool Riding::end(MotionPort& port) noexcept {
 
 StepValues::Flaw Riding::prepare(const Step& motion, JobPlaces& places, MotionPort& port, bool& ready) noexcept {
   ready = true;
+  if (skipped_) {
+    return {"a job cannot begin between TRACK and TRACK OFF; begin at the line of the TRACK"};
+  }
   if (!on()) {
     return {};
   }

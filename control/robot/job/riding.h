@@ -17,7 +17,10 @@ class Riding {
   void reset() noexcept {
     computed_ = -1;
     rides_ = false;
+    skipped_ = false;
   }
+  // Records a step before the one at which the job starts.
+  void skip(const Step& step) noexcept;
   // Returns whether a frame moves, and whether the tool moves with it.
   [[nodiscard]] bool on() const noexcept { return computed_ >= 0; }
   [[nodiscard]] bool rides() const noexcept { return rides_; }
@@ -36,6 +39,7 @@ class Riding {
   const JobBook& book_;
   int computed_ = -1;  // the frame, as computed place of the book; -1: none
   bool rides_ = false;
+  bool skipped_ = false;  // the job was started between TRACK and TRACK OFF
 };
 
 }  // namespace indurop::robot

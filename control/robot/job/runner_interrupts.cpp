@@ -50,7 +50,8 @@ void JobRunner::begin_interrupt() noexcept {
 
 JobRunner::Next JobRunner::leave_interrupt(MotionPort& port) noexcept {
   Fault fault;
-  if (!outputs_.on_path.any() && port.settled() && port.come_back(fault)) {
+  if (!outputs_.on_path.any() && port.settled() && correcting_.end(port) && riding_.end(port) &&
+      port.come_back(fault)) {
     interrupts_.begin_return();
   } else if (!fault.ok()) {
     fail(fault, "this job was called by ON and has ended too far from where the path was left; end it with MOVJ BACK",

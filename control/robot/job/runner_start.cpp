@@ -41,6 +41,7 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
       settings_.apply(*before);  // what would have to be computed is not known
     }
     correcting_.skip(*before);
+    riding_.skip(*before);
     load_ = before->op == Op::Load ? before->index : load_;
   }
   jobs_.jump(static_cast<int>(first - steps.begin()));

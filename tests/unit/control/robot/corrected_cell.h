@@ -19,8 +19,9 @@ inline constexpr const char* kSeam =
 
 class CorrectedCell : public testing::Test {
  protected:
-  void start(const std::string& job, double period_ms = 4, const std::string& urdf = urdf_of("gantry")) {
-    cell = std::make_unique<Cell>(job, period_ms, 0, true, Settings{}, urdf);
+  void start(const std::string& job, double period_ms = 4, const std::string& urdf = urdf_of("gantry"),
+             const JobTexts& others = {}) {
+    cell = std::make_unique<Cell>(job, period_ms, 0, true, Settings{}, urdf, others);
     judge = std::make_unique<Judge>(period_ms / 1000, urdf);
     period = period_ms / 1000;
     for (std::size_t i = 0; i < cell->sut->signals().size(); ++i) {

@@ -232,22 +232,28 @@ TEST_F(Correction, A_job_cannot_begin_inside_of_it) {
 }
 
 TEST_F(Correction, An_interrupt_waits_for_its_end) {
-  const std::string job = std::string(kSeam) +
-                          "MOVL A\nON I4 CALL aside\nCORRECT 0, 5, 0 LIMIT 20 mm RATE 50 mm/s\nMOVL B SPEED 300 "
-                          "mm/s\nCORRECT OFF\nSET OUT = 1\nWAIT 1s\n";
-  cell =
-      std::make_unique<Cell>(job, 4, 0, true, Settings{}, urdf_of("gantry"), JobTexts{{"aside", "SET SEEN = OUT\n"}});
-  judge = std::make_unique<Judge>(0.004, urdf_of("gantry"));
-  for (std::size_t i = 0; i < cell->sut->signals().size(); ++i) {
-    values[cell->sut->signals()[i]] = &cell->values[i];
-  }
-  ASSERT_TRUE(cell->serve(Service::GroupEnable));
-  *values["SEEN"] = -1;
-  begin();
+  start(std::string(kSeam) +
+            "MOVL A\nON I4 CALL aside\nCORRECT 0, 5, 0 LIMIT 20 mm RATE 50 mm/s\nMOVL B SPEED 300 "
+            "mm/s\nCORRECT OFF\nSET OUT = 1\nWAIT 1s\n",
+        4, urdf_of("gantry"), {{"aside", "SET SEEN = OUT + 1\n"}});
   sensor = [&] { *values["I4"] = x() > 1000 ? 1 : 0; };
   ASSERT_TRUE(follow([&] { return ended(); }));
   EXPECT_EQ(cell->out.error, ErrorCode::Ok) << message();
-  EXPECT_GE(*values["SEEN"], 0);
+  EXPECT_GE(*values["SEEN"], 1);
+}
+
+TEST_F(Correction, Of_an_interrupt_ends_with_it) {
+  start(std::string(kSeam) + "MOVL A\nON I4 CALL aside\nMOVL B SPEED 300 mm/s\n", 4, urdf_of("gantry"),
+        {{"aside",
+          "CORRECT 0, 15, 0 LIMIT 20 mm RATE 50 mm/s\nMOVL A OFFSET 350, 0, 50 SPEED 100 mm/s\nSET SEEN = "
+          "Y(HERE)\n"}});
+  sensor = [&] { *values["I4"] = x() > 510 ? 1 : 0; };
+  ASSERT_TRUE(follow([&] { return *values["SEEN"] > 0 || ended(); }));
+  EXPECT_NEAR(*values["SEEN"], 15, 0.2);
+  ASSERT_TRUE(follow([&] { return ended(); }));
+  EXPECT_EQ(cell->out.error, ErrorCode::Ok) << message();
+  EXPECT_NEAR(x(), 2700, 1e-3);
+  EXPECT_NEAR(y(), 0, 1e-3);
 }
 
 // Stops of all kinds while the sensor jumps.

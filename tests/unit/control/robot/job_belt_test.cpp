@@ -136,6 +136,16 @@ TEST_F(Job_belts, Without_a_belt_the_job_can_do_something_else) {
   expect_end();
 }
 
+TEST_F(Job_belts, A_job_cannot_begin_on_the_belt) {
+  begin(kBegin + "MOVL ABOVE SPEED 250 mm/s\nTRACK OFF\n", 20);
+  cell.ask(Service::JobStop);
+  ASSERT_TRUE(until([&] { return cell.out.state == GroupState::Standby && ended(); }));
+  cell.in.service.line = 17;
+  start_job();
+  ASSERT_TRUE(until([&] { return ended(); }));
+  EXPECT_THAT(message(), HasSubstr("cannot begin between TRACK and TRACK OFF"));
+}
+
 TEST_F(Job_belts, Breakpoints_wait_until_the_tool_has_left) {
   begin(kBegin +
             "MOVL ABOVE SPEED 250 mm/s\nSET STEP = 2\nMOVL NEXT SPEED 50 mm/s\nSET STEP = 3\nTRACK OFF\nSET STEP = "
