@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bundles the program: node build.mjs [FOLDER]. The folder then holds all that Node.js 18 needs: the program, the types
-// that the standard defines, and the licences of the packages.
+// that the standard defines, the licences of the packages, and the manual page.
+import { execFileSync } from "node:child_process";
 import { chmod, copyFile, mkdir, readFile, rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import esbuild from "esbuild";
+import { man_page } from "./src/man_page.mjs";
 
 const folder = process.argv[2] ?? "dist";
 const program = join(folder, "bin/indurop-opcua.mjs");
@@ -47,3 +49,5 @@ const nodeset = "Opc.Ua.NodeSet2.ndjson.gz";
 await copyFile(join("node_modules/node-opcua-nodesets/nodesets", nodeset), join(folder, nodeset));
 // node-opcua reads one in the folder above its files.
 await writeFile(join(folder, "package.json"), `${JSON.stringify({ name: "indurop-opcua", version })}\n`);
+const help = execFileSync(process.execPath, [program, "--help"], { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] });
+await writeFile(join(folder, "indurop-opcua.1"), man_page("indurop-opcua", help));
