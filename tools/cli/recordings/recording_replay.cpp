@@ -135,6 +135,14 @@ int replay_recording(Context& context, const ReplayOptions& options) {
   run.config = options.config.empty() ? std::filesystem::path((*known)["config"]) : options.config;
   run.board = (*known)["board"];
   run.node = options.node;
+  if (run.config.empty()) {
+    context.out.error(
+        fmt::format("{} does not name the configuration with which it was recorded, because its recorder ended before "
+                    "it had written "
+                    "the first runs; name it with --config",
+                    options.file.string()));
+    return kFailed;
+  }
   std::error_code ignored;
   if (!std::filesystem::exists(run.config, ignored)) {
     context.out.error(
