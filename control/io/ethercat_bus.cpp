@@ -92,11 +92,12 @@ std::size_t EthercatBus::add(EthercatMember member) {
 }
 
 bool EthercatBus::start() {
-  if (thread_.joinable() || owned_ != nullptr) {
+  if (thread_.joinable() || owned_ != nullptr || tried_) {
     return true;
   }
   period_ = irp::period();
   if (wires_.is_simulated) {
+    tried_ = true;
     report(prepare());
     ready_.store(owned_.get(), std::memory_order_release);
     return true;

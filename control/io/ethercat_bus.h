@@ -110,6 +110,7 @@ class EthercatBus {
   std::uint64_t reported_cut_ = kWhole;
   std::string reported_;
   bool had_carrier_ = true;
+  bool tried_ = false;  // a simulated bus is prepared once, however many devices start it
   std::mutex mutex_;
   std::condition_variable wake_;
   bool stop_ = false;  // guarded by the mutex

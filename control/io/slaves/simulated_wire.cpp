@@ -106,7 +106,11 @@ Result<EthercatWires, std::vector<base::Diagnostic>> simulated_wires(const confi
     return wrong;
   }
   return EthercatWires{[wires](const std::string& address) -> Result<std::unique_ptr<ethercat::Wire>, std::string> {
-                         return std::move((*wires)[address]);
+                         std::unique_ptr<ethercat::Wire> wire = std::move((*wires)[address]);
+                         if (wire == nullptr) {
+                           return fmt::format("the simulated bus {} is in use already", address);
+                         }
+                         return wire;
                        },
                        true};
 }
