@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/job/correcting.h"
 
+#include <indurop/robot/controller.h>
+
 #include <array>
 
 namespace indurop::robot {

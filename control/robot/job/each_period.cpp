@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/job/each_period.h"
 
+#include <indurop/robot/commands.h>
+
 #include <cmath>
 #include <string>
 #include <string_view>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/job/followed_outputs.h"
 
+#include <indurop/robot/controller.h>
+
 #include <algorithm>
 
 namespace indurop::robot {

@@ -168,7 +168,7 @@ void PlaceReader::matched_points(WorkFrame& frame) {
                                     JobLine::shown(line_.peek()) +
                                     "; MATCH P1 AT 12.5 30 0, P2 AT 90 30 0, P3 AT 90 110 0");
     } else if (line_.numbers(3, place, "x y z of the point in the frame, mm")) {
-      frame.in_frame.push_back(Vec3(place[0], place[1], place[2]) / 1000);
+      frame.in_frame.emplace_back(Vec3(place[0], place[1], place[2]) / 1000);
     }
     line_.accept(",");
   }

@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 
+#include "control/robot/job/job.h"
 #include "corrected_cell.h"
 
 namespace indurop::robot {

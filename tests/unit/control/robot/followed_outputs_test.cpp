@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "control/robot/job/job.h"
 #include "corrected_cell.h"
 
 namespace indurop::robot {
