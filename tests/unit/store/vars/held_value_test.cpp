@@ -204,7 +204,7 @@ TEST_F(HeldValues, No_force_is_seen_without_its_note) {
   ASSERT_TRUE(custody.ok());
   const DirectoryEntry& many = *sut_->find(hash("many"));
   std::atomic<bool> done = false;
-  std::size_t seen = 0;
+  std::atomic<std::size_t> seen = 0;
   std::size_t bare = 0;
   std::thread looker([&] {
     const auto view = Custody::open(node_.name(), Mode::ReadOnly);
