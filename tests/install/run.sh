@@ -56,7 +56,7 @@ export INDUROP_STATE_DIR="$work/state"
 trap '"$programs/indurop" clean --node "$node" >/dev/null 2>&1 || true' EXIT
 "$programs/indurop" check module.xml
 # The I/O module is next to the library and finds what it links.
-io=$(find "$(dirname "$programs")" -path '*/lib*/libiodispat.so' -type f -print -quit)
+io=$(find "$(dirname "$programs")"/lib* -name libiodispat.so -type f -print -quit)
 if [ -z "$io" ] || ldd "$io" | grep 'not found'; then
   echo "libiodispat.so is missing, or something it needs: '$io'" >&2
   exit 1
