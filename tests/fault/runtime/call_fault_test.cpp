@@ -144,6 +144,10 @@ TEST(CallFault, A_second_implementation_is_rejected_with_the_reason) {
 TEST(CallFault, A_server_follows_the_node_to_its_next_block) {
   auto node = std::make_unique<TestNode>();
   Program server = hosted_program(SERVER_PROGRAM, node->name(), "");
+  {
+    const Hosted hosted(*node);
+    ASSERT_TRUE(served()) << server.out();  // otherwise it could start just while there is no block
+  }
   auto schema = indurop::testing::sample_schema();
   schema.variables.pop_back();
   node->restart(schema, {{"m", {}, 0, {}, ""}});
