@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collision check for axes that move as single axes or follow others, and for arms that track a belt or are
-// corrected by a sensor: their path was not planned, so in each period they must be able to come to rest before
-// anything touches.
+// Collision check for axes that move as single axes or follow others, and for arms that track a belt or are corrected
+// by a sensor: their path was not planned, so in each period they must be able to come to rest before anything touches.
 
 #pragma once
 
@@ -17,9 +16,8 @@ class CollisionsAhead {
         clear_(robot.tool.places().clearance(), false),
         to_rest_(robot.tool.places().clearance(), false) {}
 
-  // Checks the set points that are about to be sent. `off_path`: something moves them away
-  // from the planned path. Errors: Collision. Real-time
-  // safe, like all functions of this class.
+  // Checks the set points that are about to be sent. `off_path`: something moves them away from the planned path.
+  // Errors: Collision. Real-time safe, like all functions of this class.
   Fault step(bool off_path) noexcept;
   // Calls add(vector) for the memory that changes, see KeptImage.
   template <class Add>

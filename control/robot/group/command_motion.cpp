@@ -143,7 +143,7 @@ ErrorCode CommandMotion::make_circle(const Command& command, const Pose& from, M
 
 ErrorCode CommandMotion::make(const Command& command, const Pose& start, MoveCommand& move) const noexcept {
   const Service service = group_service_of(command);
-  move.acceleration = conveyor_.is_synchronized() ? ConveyorTracking::kOnProduct : 1;
+  move.acceleration = conveyor_.acceleration();
   move.move = is_direct(service) ? Move::Joint : is_circle(service) ? Move::Circle : Move::Line;
   if (is_direct(service)) {
     move.speed = command.velocity == 0 ? 1 : command.velocity / 100;

@@ -18,6 +18,7 @@ constexpr double kWay = 0.25;       // part of the joints' accelerations for syn
 constexpr double kCatchUp = 0.1;    // m/s or rad/s
 constexpr double kMostSpeed = 0.8;  // of a joint, for tracking alone
 constexpr double kSlowest = 0.1;    // part of full speed that is left for motions on it
+constexpr double kOnProduct = 0.4;  // part of the accelerations that is left for motions on it
 constexpr double kFull = 0.95;      // of a joint's speed, for tracking and path together
 constexpr double kExact = 1e-6;     // m
 
@@ -166,12 +167,13 @@ void ConveyorTracking::lose_product(const char* why) noexcept {
                 tracking_.carrier().belt + 1, why);
   tracking_.forget();
   product_lost_ = true;
-  const bool ends_job = tracking_.on() && robot_.states.moving() && robot_.job.running();
-  if (tracking_.on() && robot_.states.moving()) {
+  const bool moves_tool = tracking_.on() && robot_.states.moving();
+  const bool by_job = robot_.job.running();
+  if (moves_tool) {
     end_motion(ErrorCode::Belt, text);
   }
   leave(false);
-  if (!ends_job) {
+  if (!(moves_tool && by_job)) {
     robot_.job.set_message(text);  // otherwise the message names the line, too
   }
 }
@@ -237,6 +239,10 @@ void ConveyorTracking::keep_to_product() noexcept {
   const double speed = std::abs(tracking_.belt(belt()).velocity);
   pace_ = std::clamp(kFull - speed / room.limits.velocity, kSlowest, 1.0);
   speed_ = speed * room.tip;
+}
+
+double ConveyorTracking::acceleration() const noexcept {
+  return tracking_.is_synchronized() ? kOnProduct : 1;
 }
 
 // The product's pose for the motion that is being planned.

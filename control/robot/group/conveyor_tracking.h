@@ -17,15 +17,14 @@ namespace indurop::robot {
 
 class ConveyorTracking {
  public:
-  static constexpr double kOnProduct =
-      0.4;  // part of the accelerations that tracking leaves for motions on the product
-
   ConveyorTracking(Robot& robot, GroupPort& group, Plans& plans) noexcept;
 
   // Reads the belts. All functions of this class are real-time safe.
   void sense(const std::array<BeltIn, kBelts>& belts) noexcept;
   // Commands: the product's coordinates move with a belt from now on (`turns`: with a table), or stand still.
   ErrorCode track(const Command& command, bool turns) noexcept;
+  // The same for a carrier that is given. Errors: Belt.
+  ErrorCode track(const Tracking::Carrier& carrier) noexcept;
   ErrorCode set_product(const Command& command) noexcept;
 
   // Returns whether a belt moves the tool, or the tool has to come to rest after that.
@@ -36,8 +35,6 @@ class ConveyorTracking {
   // Returns whether the product moves with a belt; or should, but its position is unknown.
   [[nodiscard]] bool product_moves() const noexcept { return tracking_.known(); }
   [[nodiscard]] bool product_lost() const noexcept { return product_lost_; }
-  // The same for a carrier that is known. Errors: Belt.
-  ErrorCode track(const Tracking::Carrier& carrier) noexcept;
   // The product's coordinates no longer move.
   void release() noexcept;
   // Brings the tool to where a motion has to begin: at rest on the product, or off any belt. Returns false if it is
@@ -54,6 +51,8 @@ class ConveyorTracking {
 
   // All motions are held, or not.
   void set_paused(bool paused) noexcept { paused_ = paused; }
+  // Part of the accelerations that a motion which is planned now may use.
+  [[nodiscard]] double acceleration() const noexcept;
   // Part of full speed, and tip speed in m/s, that the tracking leaves for motions on the product, and that it takes.
   [[nodiscard]] double pace() const noexcept { return pace_; }
   [[nodiscard]] double speed() const noexcept { return speed_; }

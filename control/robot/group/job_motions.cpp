@@ -14,15 +14,13 @@ void JobMotions::halt() noexcept {
 
 Fault JobMotions::move(const MoveCommand& command) noexcept {
   MoveCommand motion = command;
-  motion.acceleration *= conveyor_.is_synchronized() ? ConveyorTracking::kOnProduct : 1;
+  motion.acceleration *= conveyor_.acceleration();
   plans_.ahead().add(motion);
   return {};
 }
 
 Fault JobMotions::track(const BeltWay& way) noexcept {
-  const Quat back = way.origin.orientation.conjugate();
-  const Pose product{back * (way.frame.position - way.origin.position), back * way.frame.orientation};
-  return {conveyor_.track({way.turns, way.belt - 1, way.origin, product})};
+  return {conveyor_.track({way.turns, way.belt - 1, way.origin, inverse_of(way.origin) * way.frame})};
 }
 
 bool JobMotions::ride(bool on_product, ErrorCode& error) noexcept {

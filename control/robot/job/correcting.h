@@ -19,8 +19,6 @@ class Correcting {
   }
   // Records a step before the one at which the job starts.
   void skip(const Step& step) noexcept;
-  // Returns whether the job was started between CORRECT and CORRECT OFF.
-  [[nodiscard]] bool was_skipped() const noexcept { return skipped_; }
 
   // Executes a CORRECT, or a CORRECT OFF. `done`: whether it has been done; else it has to be tried again.
   StepValues::Flaw run(const Step& step, const JobPlaces& places, MotionPort& port, bool& done) noexcept;
@@ -34,10 +32,10 @@ class Correcting {
 
  private:
   const JobBook& book_;
-  int now_ = -1;  // correction of the book
-  bool skipped_ = false;
-  double beat_ = 0;  // last value of the variable that counts the measurements
-  double age_ = 0;   // s since it changed
+  int now_ = -1;          // correction of the book
+  bool skipped_ = false;  // the job was started between CORRECT and CORRECT OFF
+  double beat_ = 0;       // last value of the variable that counts the measurements
+  double age_ = 0;        // s since it changed
 };
 
 }  // namespace indurop::robot

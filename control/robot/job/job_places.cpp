@@ -5,15 +5,6 @@
 
 namespace indurop::robot {
 
-namespace {
-
-Pose inverse_of(const Pose& pose) noexcept {
-  const Quat back = pose.orientation.conjugate();
-  return {back * -pose.position, back};
-}
-
-}  // namespace
-
 void JobPlaces::reset() noexcept {
   for (Placed& one : placed_) {
     one.known = false;

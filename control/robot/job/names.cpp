@@ -115,12 +115,7 @@ void JobNames::resolve() {
 void JobNames::resolve_point_frames() {
   JobBook& book = draft_.book();
   for (const auto& [owner, at] : of(In::PointFrame)) {
-    const int frame = find(known_.frames, at.name);
-    if (frame < 0) {
-      error(at, robot::no_such("frame", at.name, suggested(book.frames), "FRAME", kFrame));
-    } else {
-      book.points[owner].frame = frame;
-    }
+    book.points[owner].frame = frame_called(at);
   }
 }
 
@@ -188,10 +183,8 @@ void JobNames::resolve_frame_tools() {
 void JobNames::resolve_zones() {
   JobBook& book = draft_.book();
   for (const auto& [owner, at] : of(In::ZoneFrame)) {
-    const int frame = find(known_.frames, at.name);
-    if (frame < 0) {
-      error(at, robot::no_such("frame", at.name, suggested(book.frames), "FRAME", kFrame));
-    } else if (owner < book.keepouts.size()) {
+    const int frame = frame_called(at);
+    if (frame >= 0 && owner < book.keepouts.size()) {
       book.keepouts[owner].frame = frame;
     }
   }
@@ -259,6 +252,7 @@ void JobNames::resolve(const Reference& reference) {
   }
 }
 
+// Returns the index of a frame; -1 with an error.
 int JobNames::frame_called(const Mention& at) {
   const int frame = find(known_.frames, at.name);
   if (frame < 0) {

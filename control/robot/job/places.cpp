@@ -101,8 +101,7 @@ double PlaceReader::axis_value(int axis, double written) const noexcept {
   return shape_.slides[static_cast<std::size_t>(axis)] ? written / 1000 : radians(written);
 }
 
-// Parses "FRAME pallet = POSE 500 0 100 RPY 0 0 45", "FRAME pallet = POINTS O X Y", "FRAME camera = MATCH P1 AT 10 20
-// 0"
+// Parses "FRAME pallet = POSE 500 0 100 RPY 0 0 45", "FRAME pallet = POINTS O X Y", "FRAME f = MATCH P1 AT 10 20 0"
 void PlaceReader::frame() {
   const JobToken name = line_.take();
   if (name.kind != JobToken::Kind::Word || !line_.accept("=")) {

@@ -47,6 +47,10 @@ struct Pose {
 inline Pose operator*(const Pose& first, const Pose& second) noexcept {
   return {first.position + first.orientation * second.position, (first.orientation * second.orientation).normalized()};
 }
+inline Pose inverse_of(const Pose& pose) noexcept {
+  const Quat back = pose.orientation.conjugate();
+  return {back * -pose.position, back};
+}
 
 // Rotation vector (axis times angle, at most pi) that turns `from` into `to`, in coordinates of `from`.
 Vec3 rotation_between(const Quat& from, const Quat& to) noexcept;

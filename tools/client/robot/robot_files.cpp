@@ -19,6 +19,14 @@ const config::Property* property(const config::Module& module, std::string_view 
   return found == module.properties.end() ? nullptr : &*found;
 }
 
+// The text of a property of the module; empty: it is not set.
+robot::PropertyText text_of(const config::Module& module) {
+  return [&module](const char* name) {
+    const config::Property* const found = property(module, name);
+    return found == nullptr ? std::string() : found->value;
+  };
+}
+
 // Modules that link libindurop-robot.a import the URDF parser from another library.
 bool reads_urdf(const schema::ModuleFile& file) {
   const std::string name = "_ZN4urdf9parseURDF";
@@ -39,12 +47,7 @@ robot::FileNames files_of(const config::Config& config, const config::Module& mo
     names.jobs.push_back(in_folder_of(config, word));
   }
   robot::Settings settings;
-  static_cast<void>(robot::take_properties(
-      [&](const char* name) {
-        const config::Property* const given = property(module, name);
-        return given == nullptr ? std::string() : given->value;
-      },
-      settings));
+  static_cast<void>(robot::take_properties(text_of(module), settings));
   names.rotor_inertia = settings.rotor_inertia;
   return names;
 }
@@ -91,11 +94,7 @@ std::vector<base::Diagnostic> check_robot_files(const config::Config& config, co
     if (!named || (built && !reads_urdf(check.facts[i].file))) {
       continue;
     }
-    const auto text_of = [&](const char* name) {
-      const config::Property* const found = property(module, name);
-      return found == nullptr ? std::string() : found->value;
-    };
-    const robot::Findings found = robot::check_module(files_of(config, module), text_of);
+    const robot::Findings found = robot::check_module(files_of(config, module), text_of(module));
     for (const robot::WrongSetting& one : found.properties) {
       const config::Property* const wrong = property(module, one.property);
       all.push_back({base::Diagnostic::Severity::Error, config.file.string(),
