@@ -119,7 +119,7 @@ std::vector<std::string> mirror_lines(const MirrorView& view, const Output& outp
     if (peer.clock_known) {
       line += fmt::format("  clocks {} apart (+-{}){}", human_ns(std::abs(peer.clock_offset_ns)),
                           human_ns(peer.clock_bound_ns),
-                          view.clock_synchronised && peer.clock_synchronised ? "" : ", not synchronised");
+                          view.clock_synchronised && peer.clock_synchronised ? "" : ", not synchronized");
     }
     lines.push_back(line);
     if (!peer.problem.empty()) {

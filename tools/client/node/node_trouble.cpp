@@ -3,10 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <cstdlib>
+
 #include "scheduler/module_state_text.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {
+namespace {
+
+constexpr std::int64_t kShareOfPeriod = 10;  // ticks that begin further apart do not begin together
+
+}  // namespace
 
 std::optional<std::vector<alarms::ModuleNow>> modules_now(const RunView& run) {
   if (!run.node_alive() || run.block().state.load(std::memory_order_relaxed) != scheduler::NodeState::Running) {
@@ -28,6 +36,17 @@ std::optional<std::vector<alarms::ModuleNow>> modules_now(const std::string& nod
   return run.ok() ? modules_now(*run) : std::nullopt;
 }
 
+std::optional<std::string> clocks_apart(const MirrorView& mirror, const PeerView& peer, std::int64_t basic_period_ns) {
+  const std::int64_t apart = std::abs(peer.clock_offset_ns);
+  const bool claimed = mirror.clock_synchronised && peer.clock_synchronised && peer.clock_known;
+  if (!claimed || basic_period_ns <= 0 || apart - peer.clock_bound_ns <= basic_period_ns / kShareOfPeriod) {
+    return std::nullopt;
+  }
+  return fmt::format("the clock of board {} is {} {} this one (+-{}) although both are synchronized: check PTP or NTP",
+                     printable(peer.name), human_ns(apart), peer.clock_offset_ns < 0 ? "ahead of" : "behind",
+                     human_ns(peer.clock_bound_ns));
+}
+
 std::vector<std::string> trouble_now(const RunView& run, const std::optional<MirrorView>& mirror) {
   std::vector<std::string> all;
   const auto modules = modules_now(run);
@@ -43,6 +62,8 @@ std::vector<std::string> trouble_now(const RunView& run, const std::optional<Mir
     if (peer.state != "alive" || !peer.problem.empty()) {
       all.push_back(printable(
           fmt::format("board {} is {}{}{}", peer.name, peer.state, peer.problem.empty() ? "" : ": ", peer.problem)));
+    } else if (const auto apart = clocks_apart(*mirror, peer, run.block().basic_period_ns); apart) {
+      all.push_back(*apart);
     }
   }
   return all;

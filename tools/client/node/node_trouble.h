@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +18,11 @@ namespace indurop::tools {
 std::optional<std::vector<alarms::ModuleNow>> modules_now(const RunView& run);
 std::optional<std::vector<alarms::ModuleNow>> modules_now(const std::string& node);
 
-// Describes the modules that do not work, and other boards that are missing.
+// Returns a sentence if the clocks of both boards are said to be synchronized, but are measured to differ by more than
+// a tenth of the basic period (in ns; 0: unknown), so that ticks of the boards no longer begin together.
+std::optional<std::string> clocks_apart(const MirrorView& mirror, const PeerView& peer, std::int64_t basic_period_ns);
+
+// Describes the modules that do not work, other boards that are missing, and clocks that differ.
 std::vector<std::string> trouble_now(const RunView& run, const std::optional<MirrorView>& mirror);
 
 }  // namespace indurop::tools
