@@ -118,7 +118,8 @@ Result<AgentState, Problem> AgentState::open_in(const fs::path& folder, const st
 }
 
 AgentState::AgentState(AgentState&& other) noexcept
-    : files_(std::move(other.files_)),
+    : reserve_(std::move(other.reserve_)),
+      files_(std::move(other.files_)),
       lock_(std::exchange(other.lock_, -1)),
       kept_(other.kept_),
       log_(std::move(other.log_)),
@@ -165,7 +166,9 @@ Result<void, Problem> AgentState::commit(Committed next) {
     next.history.erase(next.history.begin(), next.history.end() - kHistoryKept);
   }
   const fs::path file = folder() / kCommittedFile;
-  if (const auto written = base::replace_file(file, committed_text(next), base::Durable::Yes, kStateMode); !written) {
+  const std::string text = committed_text(next);
+  const auto written = reserve_.use_for([&] { return base::replace_file(file, text, base::Durable::Yes, kStateMode); });
+  if (!written) {
     return Problem{base::cannot_write(file, written.error())};
   }
   committed_ = std::move(next);
@@ -333,6 +336,7 @@ void AgentState::collect_garbage(const std::string& tried) {
   remove_others(folder() / "deployments", needed.folders);
   remove_files_but(needed.files, false);
   remove_others(folder() / "parts", pieces);
+  (void)reserve_.take();  // the next deployment says so if it cannot be
 }
 
 void AgentState::collect_old_garbage() {

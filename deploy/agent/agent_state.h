@@ -18,6 +18,7 @@
 #include "core/base/problem.h"
 #include "deploy/disk/committed_file.h"
 #include "deploy/disk/deployment_files.h"
+#include "deploy/disk/disk_reserve.h"
 #include "deploy/transaction/package.h"
 #include "deploy/words/deployment_words.h"
 
@@ -39,10 +40,14 @@ class AgentState {
   ~AgentState();
 
   [[nodiscard]] const Committed& committed() const noexcept { return committed_; }
-  // Replaces the committed deployment on disk, then in memory. With a problem nothing has changed.
+  // Replaces the committed deployment on disk, then in memory. With a problem nothing has changed. If the disk is full,
+  // the reserve is used.
   Result<void, base::Problem> commit(Committed next);
   // Returns the history as text for tools.
   [[nodiscard]] std::string history_text() const;
+
+  // collect_garbage() takes it again, if it can.
+  [[nodiscard]] const DiskReserve& reserve() const noexcept { return reserve_; }
 
   [[nodiscard]] const DeploymentFiles& files() const noexcept { return files_; }
   [[nodiscard]] std::filesystem::path file(const std::string& digest) const { return files_.file(digest); }
@@ -77,7 +82,7 @@ class AgentState {
 
  private:
   AgentState(std::filesystem::path folder, int lock, std::size_t kept, Log log)
-      : files_(std::move(folder)), lock_(lock), kept_(kept), log_(std::move(log)) {}
+      : reserve_(folder), files_(std::move(folder)), lock_(lock), kept_(kept), log_(std::move(log)) {}
   static Result<AgentState, base::Problem> open_in(const std::filesystem::path& folder, const std::string& board,
                                                    std::size_t kept, Log log);
   Result<void, base::Problem> load();
@@ -91,6 +96,7 @@ class AgentState {
   [[nodiscard]] Needed needed_by(const std::set<std::string>& ids) const;
   void remove_files_but(const std::set<std::string>& needed, bool old_only) const;
 
+  DiskReserve reserve_;
   DeploymentFiles files_;
   int lock_ = -1;
   std::size_t kept_;  // number of deployments

@@ -156,8 +156,12 @@ bool BoardExchange::place() {
     return false;
   }
   if (request_) {
-    if (!operate::write_set_request(board_, *request_)) {
-      early_ = "the folder of the node cannot be written";
+    const Status written = state_.reserve().use_for([this] { return operate::write_set_request(board_, *request_); });
+    if (!written && stage_ == Stage::Deciding) {
+      return false;  // it has to receive this, so it is repeated until there is space
+    }
+    if (!written) {
+      early_ = describe_unwritten(written.error());
       request_.reset();
       return true;
     }

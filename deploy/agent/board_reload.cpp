@@ -78,8 +78,8 @@ std::optional<BoardReload::Answer> BoardReload::poll(DeployLink& link, rt::MonoT
 std::optional<BoardReload::Answer> BoardReload::place() {
   operate::ReloadRequest request = order_.request;
   request.file = order_.back ? "" : state_.file(order_.digest).string();
-  if (!order_.back && !operate::write_request(board_, request)) {
-    return Answer{Outcome::Failed, "the folder of the node cannot be written"};
+  if (const Status written = order_.back ? Status() : operate::write_request(board_, request); !written) {
+    return Answer{Outcome::Failed, describe_unwritten(written.error())};
   }
   ticket_ = scheduler::place_command(*module_, order_.back ? ModuleCommand::Back : ModuleCommand::Reload);
   return ticket_ ? std::nullopt

@@ -99,6 +99,9 @@ Fetcher::Attempt Fetcher::plan_files() {
   if (!package) {
     return package.error();
   }
+  if (auto taken = state_.reserve().take(); !taken) {
+    return taken;
+  }
   planned_ = true;
   wanted_.clear();
   at_ = 0;

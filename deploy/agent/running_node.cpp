@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/agent/running_node.h"
 
+#include <cstring>
 #include <utility>
 
 namespace indurop::deploy {
@@ -28,6 +29,10 @@ scheduler::ModuleRecord* find_module_record(RunBlock& run, const std::string& na
     }
   }
   return nullptr;
+}
+
+std::string describe_unwritten(const Error& error) {
+  return std::string("the folder of the node cannot be written: ") + std::strerror(error.sys_errno);
 }
 
 }  // namespace indurop::deploy

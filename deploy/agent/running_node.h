@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
 #include <optional>
 #include <string>
 
@@ -16,5 +18,7 @@ std::optional<vars::RunFile> open_running_node(const std::string& board);
 scheduler::RunBlock& run_block(const vars::RunFile& file) noexcept;
 // Returns null if there is no such module.
 scheduler::ModuleRecord* find_module_record(scheduler::RunBlock& run, const std::string& name);
+// Says why a request to the node was not written.
+std::string describe_unwritten(const Error& error);
 
 }  // namespace indurop::deploy

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "store/operate/node_json.h"
 
-#include <cerrno>
 #include <filesystem>
 #include <system_error>
 
@@ -16,7 +15,7 @@ Status write_json(const std::string& node, const char* name, const base::Json& j
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
   const auto written = base::replace_file(file, json.dump(), base::Durable::No);
-  return written ? Status() : Status(Error{Errc::System, EIO, "folder of the node"});
+  return written ? Status() : Status(Error{Errc::System, written.error().sys_errno, "folder of the node"});
 }
 
 std::optional<base::Json> read_json(const std::string& node, const char* name) {

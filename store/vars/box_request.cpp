@@ -2,7 +2,6 @@
 #include "store/vars/box_request.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <filesystem>
 #include <system_error>
@@ -56,7 +55,7 @@ Status request_box(const std::string& node, const std::string& why) {
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
   const auto written = base::replace_file(file, why.substr(0, kLongest), base::Durable::No);
-  return written ? Status() : Status(Error{Errc::System, EIO, "folder of the node"});
+  return written ? Status() : Status(Error{Errc::System, written.error().sys_errno, "folder of the node"});
 }
 
 std::optional<std::string> take_box_request(const std::string& node) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Boards and deployers that are killed in the middle: what is committed is never lost.
 
-#include <sys/mount.h>
-
 #include "killed_fixture.h"
 
 namespace indurop::test {
@@ -94,33 +92,6 @@ TEST_F(Killed, A_half_written_state_file_is_not_read) {
   std::ofstream(folder() / "state" / board("a") / "committed.json.new") << "{ half";
   start_agent("a");
   EXPECT_TRUE(both_run_the_committed());
-}
-
-class FullDisk : public AgentsTest {
- protected:
-  ~FullDisk() override {
-    if (mounted_) {
-      ::umount2(path("small").c_str(), MNT_DETACH);
-    }
-  }
-  bool mounted_ = false;
-};
-
-TEST_F(FullDisk, Is_reported_and_changes_nothing) {
-  std::filesystem::create_directories(folder() / "small");
-  mounted_ = ::mount("tmpfs", path("small").c_str(), "tmpfs", 0, "size=2m") == 0;
-  if (!mounted_) {
-    GTEST_SKIP() << "a small disk cannot be mounted here (root is needed)";
-  }
-  std::ofstream(folder() / "steady.so", std::ios::app) << std::string(4U << 20U, 'x');
-  start_agent("a", {}, path("small"));
-  start_agent("b");
-  const Outcome refused = deploy(manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}}));
-  EXPECT_EQ(refused.code, 1) << refused.err;
-  EXPECT_THAT(refused.err, HasSubstr(board("a") + ": disk full"));
-  EXPECT_EQ(report("a")["state"], "empty");
-  EXPECT_EQ(report("b")["state"], "empty");
-  stop_agent("a", SIGTERM);
 }
 
 }  // namespace
