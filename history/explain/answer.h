@@ -25,6 +25,7 @@ enum class Cause {
   Force,      // the culprit is the user who forced it
   Set,        // the culprit is the user who set it
   Module,     // the culprit is the module that wrote it
+  Device,     // the culprit is a field device
 };
 const char* to_text(Cause cause) noexcept;
 

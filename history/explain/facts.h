@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -93,6 +94,22 @@ struct VariableFact {
   std::int64_t forced_until_ns = 0;  // 0: not forced; INT64_MAX: until released
 };
 
+// A field device, or a point of one, whose quality is a variable.
+struct DeviceFact {
+  static constexpr std::int64_t kSinceBefore = INT64_MIN;  // it had this value before anything is known
+  static constexpr std::int64_t kGood = 1;
+  static constexpr std::int64_t kNotGood = -1;  // a bool does not tell more
+  struct Quality {
+    std::int64_t time_ns = kSinceBefore;
+    std::int64_t number = 0;  // docs/io.md, Quality
+  };
+  std::string name;
+  std::string place;                   // "ethercat eth1, slave 2"
+  std::string quality;                 // variable
+  std::vector<std::string> variables;  // which it exchanges: names of variables or parts of them
+  std::vector<Quality> qualities;      // its values, as far as they are known, by time
+};
+
 // A new value, as far as the tape shows.
 struct ChangeFact {
   std::string variable;
@@ -129,10 +146,13 @@ struct Facts {
   std::int64_t kernel_to_ns = 0;    // until this time; 0: no readings
   std::vector<BoardFact> boards;
   std::vector<VariableFact> variables;
+  std::vector<DeviceFact> devices;
   std::vector<ChangeFact> changes;  // by time
 
   [[nodiscard]] const ModuleFact* find_module(std::string_view name) const noexcept;
   [[nodiscard]] const VariableFact* find_variable(std::string_view name) const noexcept;
+  // Returns another board, as seen by this one.
+  [[nodiscard]] const BoardFact* find_peer(std::string_view name) const noexcept;
   // Returns the hole in the runs of the module (an index) around the tick; null: none.
   [[nodiscard]] const HoleFact* hole_around(std::uint32_t module, std::uint64_t number) const noexcept;
   // Returns such a hole of any module of a core in a period of time.
@@ -152,5 +172,16 @@ struct Facts {
                                      number * static_cast<std::uint64_t>(basic_period_ns));
   }
 };
+
+// Returns the facts of a board of the plant; null: there are none.
+inline const Facts* find_board(std::span<const Facts> plant, const std::string& board) noexcept {
+  const auto found = std::find_if(plant.begin(), plant.end(), [&](const Facts& one) { return one.board == board; });
+  return found == plant.end() ? nullptr : &*found;
+}
+
+// Converts a time to the clock of the asked board; boards of one simulation have one clock.
+inline std::int64_t on_clock_of(const Facts& to, const Facts& from, std::int64_t time_ns) noexcept {
+  return time_ns + from.wall_minus_node_ns - to.wall_minus_node_ns;
+}
 
 }  // namespace indurop::explain

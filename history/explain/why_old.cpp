@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Explains why a value is old, a board is gone, and who changed a value last.
+// Explains why a value is old, and who changed a value last.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,11 +18,6 @@ std::pair<std::string, std::string> module_and_board(const std::string& writer) 
   const auto at = writer.find('@');
   return at == std::string::npos ? std::pair(writer, std::string())
                                  : std::pair(writer.substr(0, at), writer.substr(at + 1));
-}
-
-const Facts* find_board(std::span<const Facts> plant, const std::string& board) {
-  const auto found = std::find_if(plant.begin(), plant.end(), [&](const Facts& one) { return one.board == board; });
-  return found == plant.end() ? nullptr : &*found;
 }
 
 const ChangeFact* last_change(const Facts& facts, const std::string& variable, std::int64_t at_ns) {
@@ -92,6 +87,9 @@ class Old {
     if (variable_.forced_until_ns > at_ns_ || was_forced()) {
       return forced();
     }
+    if (const DeviceFact* device = bad_device(); device != nullptr) {
+      return of_device(*device);
+    }
     if (variable_.writers.empty()) {
       return {Cause::Nobody, {}, fmt::format("no module writes {}", variable_.name), {}};
     }
@@ -110,6 +108,36 @@ class Old {
   }
 
  private:
+  [[nodiscard]] const DeviceFact::Quality* quality_of(const DeviceFact& device) const {
+    const DeviceFact::Quality* last = nullptr;
+    for (const DeviceFact::Quality& one : device.qualities) {
+      last = one.time_ns <= at_ns_ ? &one : last;
+    }
+    return last;
+  }
+
+  // Returns a device that exchanges the variable or a part of it, and whose quality is not good; null: none.
+  [[nodiscard]] const DeviceFact* bad_device() const {
+    const auto found = std::find_if(facts_.devices.begin(), facts_.devices.end(), [this](const DeviceFact& device) {
+      const DeviceFact::Quality* const quality = quality_of(device);
+      return quality != nullptr && quality->number != DeviceFact::kGood &&
+             std::any_of(device.variables.begin(), device.variables.end(),
+                         [this](const std::string& part) { return names_of(part, variable_.name); });
+    });
+    return found == facts_.devices.end() ? nullptr : &*found;
+  }
+
+  [[nodiscard]] Answer of_device(const DeviceFact& device) const {
+    const DeviceFact::Quality& quality = *quality_of(device);
+    return {
+        Cause::Device,
+        device.name,
+        fmt::format("{} is exchanged with device {} ({}): {}", variable_.name, device.name, device.place,
+                    quality_text(quality.number)),
+        {fmt::format("{} is {}{}", device.quality, quality.number,
+                     quality.time_ns == DeviceFact::kSinceBefore ? "" : " since " + when(facts_, quality.time_ns))}};
+  }
+
   // Returns whether it was forced at a time in the past.
   [[nodiscard]] bool was_forced() const {
     const OrderFact* order = last_order(facts_, variable_.name, at_ns_);
@@ -191,126 +219,7 @@ class Old {
   std::int64_t at_ns_;
 };
 
-const BoardFact* seen(const Facts& facts, const std::string& board) {
-  const auto found =
-      std::find_if(facts.boards.begin(), facts.boards.end(), [&](const BoardFact& one) { return one.name == board; });
-  return found == facts.boards.end() ? nullptr : &*found;
-}
-
-// Converts a time to the clock of the asked board; boards of one simulation have one clock.
-std::int64_t on_clock_of(const Facts& to, const Facts& from, std::int64_t time_ns) {
-  return time_ns + from.wall_minus_node_ns - to.wall_minus_node_ns;
-}
-
-// The board is silent; its own facts are known.
-Answer silent(const Facts& facts, const Facts& its, const BoardFact& peer, std::vector<std::string> evidence) {
-  const std::string& board = peer.name;
-  std::int64_t last = 0;
-  std::int64_t first = INT64_MAX;
-  for (const RunFact& run : its.runs) {
-    first = std::min(first, on_clock_of(facts, its, run.start_ns));
-    last = std::max(last, on_clock_of(facts, its, run.end_ns));
-  }
-  evidence.push_back(
-      fmt::format("the last run of {} itself that is known was in {} of {}", board, when(facts, last), facts.board));
-  const std::int64_t slack = std::max<std::int64_t>(facts.lease_ns, 2 * its.basic_period_ns) + 20'000'000;
-  // If nothing is read from a board, it is not known when it fell silent; one that was absent was never received while
-  // both ran.
-  const bool listened = peer.heard_ns > 0 || peer.state == "absent";
-  const std::int64_t since = peer.heard_ns > 0 ? peer.heard_ns : std::max(first, facts.epoch_ns);
-  const bool went_on = listened && std::min(last, facts.now_ns) > since + slack;
-  if (went_on || its.alive) {
-    const BoardFact* back = seen(its, facts.board);
-    if (back != nullptr) {
-      evidence.push_back(fmt::format("{} sees {} as {}", board, facts.board, back->state));
-    }
-    return {
-        Cause::Network, board,
-        fmt::format("{} kept running, but nothing was received from it: the network between the two carried nothing",
-                    board),
-        evidence};
-  }
-  if (!listened && !its.stop_reason.empty() && last + slack > facts.now_ns) {
-    Answer answer = not_known(
-        fmt::format("{} reads nothing from {} and does not know when it fell silent; {} itself ran until about the end",
-                    facts.board, board, board));
-    answer.evidence = evidence;
-    return answer;
-  }
-  if (!its.stop_reason.empty()) {
-    return {Cause::Board, board, fmt::format("the node of {} ended: {}", board, its.stop_reason), evidence};
-  }
-  if (its.closed) {
-    Answer answer =
-        not_known(fmt::format("the recording of {} ends about then and does not say that it stopped", board));
-    answer.evidence = evidence;
-    return answer;
-  }
-  return {Cause::Board, board,
-          fmt::format("{} stopped in the middle of its work: it crashed, was killed or lost its power", board),
-          evidence};
-}
-
 }  // namespace
-
-Answer why_ended(const Facts& facts) {
-  if (facts.alive) {
-    return {Cause::AllIsWell, {}, fmt::format("the node of {} runs", facts.board), {}};
-  }
-  std::int64_t last = 0;
-  for (const RunFact& run : facts.runs) {
-    last = std::max(last, run.end_ns);
-  }
-  const std::string when_last = last > 0 ? fmt::format("the last run that is known was in {}", when(facts, last))
-                                         : std::string("no run of it is known");
-  if (!facts.stop_reason.empty()) {
-    return {Cause::Board,
-            facts.board,
-            fmt::format("the node of {} ended: {}", facts.board, facts.stop_reason),
-            {when_last}};
-  }
-  Answer answer = not_known(fmt::format(
-      "the recording does not say that {} stopped; give those of other boards, which received from it", facts.board));
-  answer.evidence.push_back(when_last);
-  return answer;
-}
-
-Answer why_gone(std::span<const Facts> plant, std::size_t asked, const std::string& board) {
-  const Facts& facts = plant[asked];
-  const BoardFact* peer = seen(facts, board);
-  if (peer == nullptr) {
-    return not_known(fmt::format("{} has nothing to do with a board '{}'", facts.node, board));
-  }
-  std::vector<std::string> evidence;
-  if (peer->heard_ns > 0) {
-    evidence.push_back(
-        fmt::format("{} was last received in {} of {}", board, when(facts, peer->heard_ns), facts.board));
-  }
-  if (peer->state == "alive") {
-    return {Cause::AllIsWell,
-            {},
-            fmt::format("{} is connected{}", board,
-                        peer->losses > 0 ? fmt::format("; it was lost {} times", peer->losses) : std::string()),
-            evidence};
-  }
-  if (peer->state == "mismatched") {
-    return {Cause::Board, board, fmt::format("{} is connected, but does not match: {}", board, peer->problem),
-            evidence};
-  }
-  const Facts* its = find_board(plant, board);
-  if (its == nullptr) {
-    Answer answer =
-        not_known(fmt::format("{} is silent, and no data of {} itself is available: it may have ended, or be "
-                              "cut off; give its recording too, or ask on its host",
-                              board, board));
-    answer.evidence = evidence;
-    return answer;
-  }
-  if (its->runs.empty()) {
-    return not_known(fmt::format("{} is silent, and its recording holds no run", board));
-  }
-  return silent(facts, *its, *peer, std::move(evidence));
-}
 
 Answer why_old(std::span<const Facts> plant, std::size_t asked, const std::string& variable, std::int64_t at_ns) {
   const Facts& facts = plant[asked];
@@ -322,7 +231,7 @@ Answer why_old(std::span<const Facts> plant, std::size_t asked, const std::strin
   if (here || known->forced_until_ns > at_ns) {
     return Old(facts, *known, at_ns).answer();
   }
-  const BoardFact* peer = seen(facts, known->owner);
+  const BoardFact* peer = facts.find_peer(known->owner);
   if (peer == nullptr || peer->state != "alive") {
     Answer answer = why_gone(plant, asked, known->owner);
     answer.text = fmt::format("{} comes from board {}. {}", variable, known->owner, answer.text);

@@ -13,9 +13,9 @@
 namespace indurop::explain {
 
 const char* to_text(Cause cause) noexcept {
-  static constexpr std::array<const char*, 16> kWords{
-      "not-known", "all-is-well", "not-due", "own-time",  "fault",  "stopped", "machine", "schedule",
-      "board",     "network",     "rate",    "unchanged", "nobody", "force",   "set",     "module"};
+  static constexpr std::array<const char*, 17> kWords{
+      "not-known", "all-is-well", "not-due",   "own-time", "fault", "stopped", "machine", "schedule", "board",
+      "network",   "rate",        "unchanged", "nobody",   "force", "set",     "module",  "device"};
   const auto number = static_cast<std::size_t>(cause);
   return number < kWords.size() ? kWords.at(number) : "not-known";
 }
@@ -29,6 +29,11 @@ const VariableFact* Facts::find_variable(std::string_view name) const noexcept {
   const auto found =
       std::find_if(variables.begin(), variables.end(), [&](const auto& one) { return one.name == name; });
   return found == variables.end() ? nullptr : &*found;
+}
+
+const BoardFact* Facts::find_peer(std::string_view name) const noexcept {
+  const auto found = std::find_if(boards.begin(), boards.end(), [&](const auto& one) { return one.name == name; });
+  return found == boards.end() ? nullptr : &*found;
 }
 
 const HoleFact* Facts::hole_around(std::uint32_t module, std::uint64_t number) const noexcept {
@@ -69,6 +74,17 @@ std::string at_tick(const Facts& facts, std::uint64_t tick) {
 
 std::string when(const Facts& facts, std::int64_t time_ns) {
   return time_ns < facts.epoch_ns ? "before tick 0" : at_tick(facts, facts.tick_at(time_ns));
+}
+
+std::string quality_text(std::int64_t number) {
+  static constexpr std::array<const char*, 6> kTexts{"nothing has been exchanged yet",
+                                                     "its data is good",
+                                                     "it is lost: no connection, no answer in time, or an invalid one",
+                                                     "it reports that it does not have this point",
+                                                     "a value did not fit and was limited",
+                                                     "nothing is sent any more because the tick has stopped"};
+  const bool known = number >= 0 && number < static_cast<std::int64_t>(kTexts.size());
+  return known ? kTexts.at(static_cast<std::size_t>(number)) : "its data is not good";
 }
 
 std::string who(const OrderFact& order) {

@@ -19,12 +19,16 @@ class EthercatSimulation : public NodeTest {
       "</device>\n";
 
   // Runs a configuration in virtual time.
-  Outcome simulate(const std::string& elements, const std::string& time) {
+  Outcome simulate(const std::string& elements, const std::string& time, const std::vector<std::string>& more = {}) {
     write("ioconfig.xml", "<ioconfig>\n" + elements + "</ioconfig>\n");
     return run_to_end(
         {{.file = IO_MODULE, .name = "io", .period = "2ms", .priority = 1, .properties = {{"config", "ioconfig.xml"}}},
          {.file = std::string(IO_FOLDER) + "/axis_user.so", .name = "axis_user", .period = "2ms", .priority = 2}},
-        {"--sim", "--until", time});
+        with({"--sim", "--until", time}, more));
+  }
+  static std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
   }
   std::string values() const { return indurop({"vars", "-o", "json"}).out; }
 
@@ -59,6 +63,25 @@ TEST_F(EthercatSimulation, Faults_come_at_their_virtual_time) {
   EXPECT_THAT(outcome.out, testing::HasSubstr("slave 1 (InduRoP simulated drive): does not answer"));
   EXPECT_THAT(outcome.out, testing::HasSubstr("late or lost"));
   EXPECT_FALSE(value<bool>("TEST_CELL::link_good"));
+}
+
+TEST_F(EthercatSimulation, A_lost_drive_explains_why_its_values_are_old) {
+  write("faults", "1s power_off slave=1 for=1s\n");
+  const std::string recording = (folder() / "r.mcap").string();
+  const Outcome outcome = simulate(kDevices + "<simulation address='eth77' slaves='drive drive' script='faults'/>\n",
+                                   "1500ms", {"--record", recording});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  // From what the node left in memory, and from its recording.
+  for (const std::vector<std::string>& from : {std::vector<std::string>{}, {"--from", recording}}) {
+    const std::string said = indurop(with({"explain", "TEST_CELL::speeds"}, from)).out;
+    EXPECT_THAT(said, testing::HasSubstr("exchanged with device axis2 (ethercat eth77, slave 1): it is lost"));
+    EXPECT_THAT(said, testing::ContainsRegex("TEST_CELL::I0_quality is 2 since tick 50[0-9] "));
+    EXPECT_THAT(indurop(with({"explain", "TEST_CELL::speeds", "--tick", "450"}, from)).out,
+                testing::Not(testing::HasSubstr("axis2")))
+        << "it was not lost then";
+    EXPECT_THAT(indurop(with({"explain", "TEST_CELL::AXIS1_IN"}, from)).out,
+                testing::Not(testing::HasSubstr("exchanged with device")));
+  }
 }
 
 TEST_F(EthercatSimulation, A_cut_ring_is_reached_from_both_ends) {

@@ -3,11 +3,15 @@
 
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/problem.h"
+#include "core/schema/schema.h"
 #include "history/explain/facts.h"
 #include "tools/cli/command/verb.h"
 #include "tools/client/node/node_choice.h"
@@ -27,8 +31,19 @@ Result<std::vector<explain::Facts>, base::Problem> facts_recorded(const std::fil
 // The message that two recordings of one board, which may contradict each other, are rejected.
 std::string two_recordings(const std::string& board, const std::string& file);
 
-// Adds facts from module.xml or plant.xml: who writes what, who waits for whom. Adds nothing if the file cannot be
-// read.
-void add_config(const std::string& config, explain::Facts& facts);
+// Where a field device's quality is.
+struct QualityPlace {
+  std::size_t device = 0;  // index into Facts::devices
+  std::string variable;    // whole name
+  schema::Type type;       // a number
+  std::uint32_t offset = 0;
+
+  // Adds the quality to the facts if it has changed. `value`: the variable's.
+  void add(std::int64_t time_ns, std::span<const std::uint8_t> value, explain::Facts& facts) const;
+};
+
+// Adds facts from module.xml or plant.xml: who writes what, who waits for whom, which field devices there are. Adds
+// nothing if the file cannot be read. Returns where the qualities of these devices are.
+std::vector<QualityPlace> add_config(const std::string& config, explain::Facts& facts);
 
 }  // namespace indurop::tools

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facts from module.xml and plant.xml: who writes what, who waits for whom.
+// Facts from module.xml, plant.xml and ioconfig.xml: who writes what, who waits for whom, which field devices there
+// are.
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
+#include "config/check/io_access.h"
 #include "config/check/uses.h"
+#include "config/xml/io_reader.h"
 #include "config/xml/plant_reader.h"
+#include "core/schema/leaf.h"
 #include "scheduler/words.h"
 #include "tools/cli/explain/gather.h"
 #include "tools/client/config/checked_config.h"
@@ -43,7 +50,54 @@ void add_modules(const config::Config& config, const config::CheckResult& check,
   }
 }
 
-void add_plant(const std::string& file, const config::CheckOptions& options, bool known, Facts& facts) {
+std::string place_of(const config::IoDevice& device) {
+  const std::string place = fmt::format("{} {}", name_of(device.driver), device.address);
+  if (device.driver != config::IoDriver::Ethercat) {
+    return place;
+  }
+  return device.slave.alias ? fmt::format("{}, alias {}", place, *device.slave.alias)
+                            : fmt::format("{}, slave {}", place, device.slave.position);
+}
+
+// Adds a device, or a point of one that has a quality of its own.
+void add_device(explain::DeviceFact device, const schema::Schema& schema, Facts& facts,
+                std::vector<QualityPlace>& places) {
+  const auto place = device.quality.empty() ? schema::Failure{} : schema::find_place(schema, device.quality);
+  if (!place) {
+    return;
+  }
+  for (std::string& name : device.variables) {
+    const auto part = schema::find_place(schema, name);
+    name = part ? part->variable->name : name;
+  }
+  places.push_back({facts.devices.size(), place->variable->name, place->type, place->offset});
+  facts.devices.push_back(std::move(device));
+}
+
+void add_devices(const config::Config& config, const std::filesystem::path& folder, const schema::Schema& schema,
+                 Facts& facts, std::vector<QualityPlace>& places) {
+  for (const config::Module& module : config.modules) {
+    const auto file = config::io_config_of(module, folder);
+    // Other modules may have a property of the same name, with a file that is no ioconfig.xml.
+    const config::ReadIo read = file ? config::read_io_config(*file) : config::ReadIo();
+    for (const config::IoDevice& device : read.ok() ? read.config.devices : std::vector<config::IoDevice>()) {
+      explain::DeviceFact whole{device.name, place_of(device), device.quality, {}, {}};
+      for (const config::IoPoint& point : device.points) {
+        whole.variables.push_back(point.variable);
+        add_device({device.name, place_of(device), point.quality, {point.variable}, {}}, schema, facts, places);
+      }
+      for (const std::string* structure : {&device.axis.in, &device.axis.out}) {
+        if (!structure->empty()) {
+          whole.variables.push_back(*structure);
+        }
+      }
+      add_device(std::move(whole), schema, facts, places);
+    }
+  }
+}
+
+void add_plant(const std::string& file, const config::CheckOptions& options, bool known, Facts& facts,
+               std::vector<QualityPlace>& places) {
   const CheckedPlant checked = load_plant(file, options);
   facts.lease_ns = checked.plant.lease.count();
   const auto views = config::views_of(checked.plant, checked.check);
@@ -63,29 +117,47 @@ void add_plant(const std::string& file, const config::CheckOptions& options, boo
   for (const config::BoardView& view : views) {
     if (view.name == facts.board) {
       add_modules(view.config, view.result, known, facts);
+      add_devices(view.config, std::filesystem::path(file).parent_path(), view.result.schema, facts, places);
     }
   }
 }
 
 }  // namespace
 
-void add_config(const std::string& config, Facts& facts) {
-  std::error_code error;
-  if (config.empty() || !std::filesystem::exists(config, error)) {
+void QualityPlace::add(std::int64_t time_ns, std::span<const std::uint8_t> value, Facts& facts) const {
+  if (offset + type.size() > value.size()) {
     return;
+  }
+  auto& known = facts.devices[device].qualities;
+  auto number = schema::as_number<std::int64_t>(type.base, value.data() + offset);
+  if (type.base == schema::Base::Bool && number == 0) {
+    number = explain::DeviceFact::kNotGood;
+  }
+  if (number && (known.empty() || known.back().number != *number)) {
+    known.push_back({time_ns, *number});
+  }
+}
+
+std::vector<QualityPlace> add_config(const std::string& config, Facts& facts) {
+  std::error_code error;
+  std::vector<QualityPlace> places;
+  if (config.empty() || !std::filesystem::exists(config, error)) {
+    return places;
   }
   const config::CheckOptions options{.files = true, .adjust = true};
   const bool known = std::any_of(facts.modules.begin(), facts.modules.end(),
                                  [](const explain::ModuleFact& one) { return !one.operation.empty(); });
   if (config::is_plant_file(config)) {
-    add_plant(config, options, known, facts);
-    return;
+    add_plant(config, options, known, facts, places);
+    return places;
   }
   const CheckedConfig checked = load_config(config, options);
   for (const config::VariableUse& use : checked.check.uses) {
     facts.variables.push_back({use.name, use.writers, {}, 0, 0});
   }
   add_modules(checked.config, checked.check, known, facts);
+  add_devices(checked.config, std::filesystem::path(config).parent_path(), checked.check.schema, facts, places);
+  return places;
 }
 
 }  // namespace indurop::tools

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "core/rt/clock.h"
 #include "history/explain/facts_json.h"
 #include "history/explain/kernel_log.h"
 #include "history/explain/run_facts.h"
 #include "network/mirror/frames/mirror_block.h"
+#include "store/operate/item.h"
 #include "store/operate/journal.h"
 #include "store/tape/follower.h"
 #include "store/vars/shm_file.h"
@@ -41,19 +43,36 @@ void add_forces(const vars::Store& store, Facts& facts) {
   }
 }
 
-// Adds changes of the variable from the tape, and the runs that ended by a fault.
-void add_tape(const std::string& node, const vars::Store& store, const std::string& variable, Facts& facts) {
+std::uint32_t index_of(const vars::Store& store, const std::string& variable) {
+  const auto* entry = store.find(abi::fnv1a64(variable.data(), variable.size()));
+  return entry == nullptr ? std::numeric_limits<std::uint32_t>::max()
+                          : static_cast<std::uint32_t>(entry - store.directory().data());
+}
+
+// Adds changes of the variable and of qualities from the tape.
+void add_tape(const std::string& node, const vars::Store& store, const std::string& variable,
+              const std::vector<QualityPlace>& places, Facts& facts) {
   auto follower = tape::Follower::open(node, true);
   if (!follower || follower->header().layout_hash != store.header().layout_hash) {
     return;
   }
-  const auto* entry = store.find(abi::fnv1a64(variable.data(), variable.size()));
-  const auto index = entry == nullptr ? std::numeric_limits<std::uint32_t>::max()
-                                      : static_cast<std::uint32_t>(entry - store.directory().data());
+  const std::uint32_t index = index_of(store, variable);
+  std::multimap<std::uint32_t, const QualityPlace*> qualities;
+  for (const QualityPlace& place : places) {
+    qualities.emplace(index_of(store, place.variable), &place);
+  }
   tape::Run run;
   for (std::size_t track = 0; track < follower->tracks(); ++track) {
     while (follower->next(track, run)) {
       const bool known = run.module < facts.modules.size();
+      for (const tape::Value& value : run.values) {
+        const bool again = value.kind == tape::EntryKind::Again;
+        const std::int64_t since = again ? explain::DeviceFact::kSinceBefore : run.tail.end_ns;
+        const auto [first, last] = qualities.equal_range(value.variable);
+        if (again || value.kind == tape::EntryKind::After) {
+          std::for_each(first, last, [&](const auto& one) { one.second->add(since, value.bytes, facts); });
+        }
+      }
       const bool wrote = std::any_of(run.values.begin(), run.values.end(), [&](const tape::Value& value) {
         return value.variable == index && value.kind == tape::EntryKind::After;
       });
@@ -61,6 +80,19 @@ void add_tape(const std::string& node, const vars::Store& store, const std::stri
         facts.changes.push_back(
             {variable, known ? facts.modules[run.module].name : "", run.tail.tick, run.tail.end_ns});
       }
+    }
+  }
+}
+
+// A quality that the tape does not have has not changed for as long as anything is known.
+void add_present_qualities(const vars::Store& store, const std::vector<QualityPlace>& places, Facts& facts) {
+  for (const QualityPlace& place : places) {
+    const explain::DeviceFact& device = facts.devices[place.device];
+    const auto item = device.qualities.empty() ? operate::find(store, device.quality) : base::Problem{};
+    if (const auto bytes = item ? operate::read(store, *item) : base::Problem{}; bytes) {
+      QualityPlace alone = place;
+      alone.offset = 0;
+      alone.add(explain::DeviceFact::kSinceBefore, *bytes, facts);
     }
   }
 }
@@ -92,10 +124,11 @@ Facts facts_here(const ChosenRun& chosen, const std::string& variable) {
   const auto store = vars::Store::attach(chosen.node, vars::Mode::ReadOnly);
   Facts facts = of_memory(chosen.node, chosen.run, true, store ? rt::to_ns(store->now()) : chosen.run.now_ns());
   facts.alive = chosen.run.node_alive();
-  add_config(fixed_text(chosen.run.block().config_file), facts);
+  const std::vector<QualityPlace> places = add_config(fixed_text(chosen.run.block().config_file), facts);
   if (store) {
     add_forces(*store, facts);
-    add_tape(chosen.node, *store, variable, facts);
+    add_tape(chosen.node, *store, variable, places, facts);
+    add_present_qualities(*store, places, facts);
   }
   explain::make_sound(facts);
   return facts;

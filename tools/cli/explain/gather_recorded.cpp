@@ -11,6 +11,8 @@
 #include "history/explain/run_facts.h"
 #include "history/recorder/run_words.h"
 #include "history/recorder/sources.h"
+#include "history/recording/cdr.h"
+#include "history/recording/idl_type.h"
 #include "tools/cli/explain/gather.h"
 
 namespace indurop::tools {
@@ -37,11 +39,12 @@ class Recorded {
     }
     about_its_end();
     name_modules();
+    places_ = add_config(config_, facts_);
+    find_qualities();
     (void)reader_.each([this](const recording::McapMessage& message) { take(message); });
     if (!facts_.runs.empty()) {
       conclude();
     }
-    add_config(config_, facts_);
     explain::make_sound(facts_);
     return std::move(facts_);
   }
@@ -76,7 +79,43 @@ class Recorded {
     }
   }
 
+  // Which channels have the qualities of field devices, and with which type.
+  void find_qualities() {
+    for (const auto& [id, place] : sources_.channels) {
+      const auto& channel = reader_.contents().channels.at(id);
+      const auto schema = reader_.contents().schemas.find(channel.schema);
+      if (place.source != own_ || place.kind != recorder::ChannelKind::Value ||
+          schema == reader_.contents().schemas.end()) {
+        continue;
+      }
+      std::vector<const QualityPlace*> inside;
+      for (const QualityPlace& one : places_) {
+        if (one.variable == place.name) {
+          inside.push_back(&one);
+        }
+      }
+      auto type = inside.empty() ? base::Problem{} : recording::idl_type(schema->second.data, schema->second.name);
+      if (type) {
+        qualities_[id] = {std::move(type).value(), std::move(inside)};
+      }
+    }
+  }
+
+  void take_qualities(const recording::McapMessage& message) {
+    const auto found = qualities_.find(message.channel);
+    if (found == qualities_.end()) {
+      return;
+    }
+    std::vector<std::uint8_t> bytes(found->second.type.size());
+    if (recording::from_cdr(found->second.type, message.data.view, bytes)) {
+      for (const QualityPlace* place : found->second.places) {
+        place->add(static_cast<std::int64_t>(message.log_time_ns) - facts_.wall_minus_node_ns, bytes, facts_);
+      }
+    }
+  }
+
   void take(const recording::McapMessage& message) {
+    take_qualities(message);
     const auto place = sources_.channels.find(message.channel);
     if (place == sources_.channels.end() || place->second.source != own_) {
       return;
@@ -156,6 +195,12 @@ class Recorded {
   const recorder::Source& about_;
   std::string variable_;
   std::string config_;
+  struct Qualities {
+    schema::Type type;  // of the variable
+    std::vector<const QualityPlace*> places;
+  };
+  std::vector<QualityPlace> places_;
+  std::map<std::uint16_t, Qualities> qualities_;  // by channel
   Facts facts_;
   std::map<std::uint32_t, std::uint64_t> first_numbers_;  // of runs, by module
   std::map<std::uint32_t, tape::RunTail> last_runs_;      // by module

@@ -241,6 +241,26 @@ TEST(Explain, A_force_that_is_over_is_known_for_its_time) {
   EXPECT_EQ(why_old({&facts, 1}, 0, "x", 400 * kMs).cause, Cause::Unchanged) << "it was released";
 }
 
+TEST(Explain, A_device_is_named_while_its_data_is_not_good) {
+  Facts facts = board("here", 1000);
+  facts.devices.push_back({"axis", "ethercat eth1, slave 2", "quality[1]", {"x"}, {}});
+  facts.devices.push_back({"other", "ethercat eth1, slave 3", "quality[2]", {"y"}, {{0, 2}}});
+  EXPECT_EQ(why_old({&facts, 1}, 0, "x", 400 * kMs).cause, Cause::Unchanged) << "its quality is not known";
+  facts.devices[0].qualities = {{DeviceFact::kSinceBefore, 1}, {300 * kMs, 2}, {500 * kMs, 1}};
+  EXPECT_EQ(why_old({&facts, 1}, 0, "x", 299 * kMs).cause, Cause::Unchanged);
+  const Answer sut = why_old({&facts, 1}, 0, "x", 400 * kMs);
+  EXPECT_EQ(sut.cause, Cause::Device);
+  EXPECT_EQ(sut.culprit, "axis");
+  EXPECT_EQ(sut.text,
+            "x is exchanged with device axis (ethercat eth1, slave 2): it is lost: no connection, no answer in "
+            "time, or an invalid one");
+  EXPECT_THAT(sut.evidence, testing::ElementsAre("quality[1] is 2 since tick 300 (300 ms)"));
+  EXPECT_EQ(why_old({&facts, 1}, 0, "x", 500 * kMs).cause, Cause::Unchanged) << "it is back";
+  facts.devices[0].variables = {"x.status"};
+  facts.devices[0].qualities = {{DeviceFact::kSinceBefore, 0}};
+  EXPECT_THAT(why_old({&facts, 1}, 0, "x", 0).evidence, testing::ElementsAre("quality[1] is 0"));
+}
+
 TEST(Explain, A_board_that_went_on_running_was_cut_off) {
   Facts other = board("other", 2999);
   other.boards.push_back({"here", "silent", {}, 1000 * kMs, 1, 0});
