@@ -27,7 +27,7 @@ using base::Json;
 constexpr std::size_t kMaxMessages = 200;
 
 std::string layout_of(const vars::Store& store) {
-  return fmt::format("{:016x}", store.header().layout_hash);
+  return fmt::format("{:016x}", store.layout_hash());
 }
 
 std::int64_t freshness_of(const vars::Store& store, const vars::DirectoryEntry& entry, std::int64_t now_ns) {

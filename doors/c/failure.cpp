@@ -37,8 +37,9 @@ irp_code code_of(Errc code) noexcept {
     case Errc::Dead:
       return IRP_CORRUPT;
     case Errc::OutOfRange:
-    case Errc::TypeMismatch:
       return IRP_SIZE;
+    case Errc::TypeMismatch:
+      return IRP_CHANGED;
     default:
       return IRP_SYSTEM;
   }

@@ -103,7 +103,7 @@ Result<std::uint32_t, Failure> irp_node::find(const std::string& name) {
   }
   auto item = indurop::operate::find(store_, name);
   if (!item) {
-    return Failure{IRP_NOT_FOUND, std::move(item).error().text};
+    return store_.grown() ? changed() : Failure{IRP_NOT_FOUND, std::move(item).error().text};
   }
   if (const auto known = ids_.find(item->name); known != ids_.end() && found_[known->second].item.entry != nullptr) {
     return known->second;
@@ -115,7 +115,7 @@ Result<std::uint32_t, Failure> irp_node::find(const std::string& name) {
 }
 
 Result<void, Failure> irp_node::refresh() {
-  if (!store_.retired()) {
+  if (!store_.retired() && !store_.grown()) {
     return {};
   }
   auto store = attach(name_, access_);

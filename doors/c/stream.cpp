@@ -40,7 +40,7 @@ Result<irp_stream*, Failure> irp_stream::open(const irp_node& node, std::span<co
     return indurop::c::failure_of(follower.error(), fmt::format("tape of node '{}'", node.name()));
   }
   std::unique_ptr<irp_stream> stream(new irp_stream(node, std::move(follower).value()));
-  if (stream->follower_.variables().size() != node.store().directory().size()) {
+  if (!stream->follower_.is_of(node.store())) {
     return node.changed();
   }
   for (const std::uint32_t id : ids) {
@@ -63,6 +63,10 @@ Result<void, Failure> irp_stream::add_column(std::uint32_t id) {
   }
   const indurop::operate::Item& item = (*found)->item;
   const auto variable = static_cast<std::uint32_t>(item.entry - node_.store().directory().data());
+  if (variable >= follower_.variables().size()) {
+    return Failure{IRP_NOT_FOUND,
+                   fmt::format("{} appeared while the node runs; its tape has it after a restart", item.name)};
+  }
   if (follower_.variables()[variable].taped == 0) {
     return not_on_tape(item.name);
   }

@@ -58,7 +58,7 @@ bool AlarmCondition::evaluate(const schema::Alarm& alarm, double value, std::int
 }
 
 bool AlarmWatch::attach() {
-  if (!store_ || store_->retired() || vars::store_number(node_) != number_) {
+  if (!store_ || store_->retired() || store_->grown() || vars::store_number(node_) != number_) {
     const std::uint64_t number = vars::store_number(node_);
     auto fresh = vars::Store::attach(node_, vars::Mode::ReadOnly);
     if (!fresh.ok()) {

@@ -35,12 +35,7 @@ recording::View view(const std::string& text) {
 Result<Recorder, Problem> Recorder::create_one_of(const std::string& prefix, const About& about,
                                                   const vars::Store& store, tape::Follower follower,
                                                   const std::vector<std::string>& globs, std::vector<bool>& matched) {
-  const bool same =
-      std::ranges::equal(follower.variables(), store.directory(), [](const auto& taped, const auto& entry) {
-        return taped.name_hash == entry.name_hash && taped.size == entry.value_size;
-      });
-  // The header of a store that was truncated is no longer valid; its tape may still be intact.
-  if (!same || (!store.lost() && follower.header().layout_hash != store.header().layout_hash)) {
+  if (!follower.is_of(store)) {
     return Problem{"the node's variables have just changed: try again"};
   }
   Recorder recorder(prefix, store, std::move(follower), about);
@@ -89,22 +84,23 @@ std::uint64_t Recorder::log_time(std::int64_t node_ns) const noexcept {
 }
 
 void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& matched) {
-  const auto count = static_cast<std::uint32_t>(store_.directory().size());
-  wanted_.assign(count, globs.empty());
+  const auto count = static_cast<std::uint32_t>(follower_.variables().size());
+  wanted_.assign(store_.directory().size(), globs.empty());
   for (std::size_t glob = 0; glob < globs.size(); ++glob) {
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < wanted_.size(); ++i) {
       if (schema::glob_match(globs[glob], variable(i).name)) {
         matched[glob] = true;
         wanted_[i] = true;
       }
     }
   }
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (wanted_[i] && follower_.variables()[i].taped == 0) {
-      too_large_.push_back(variable(i).name);
+  for (std::uint32_t i = 0; i < wanted_.size(); ++i) {
+    if (wanted_[i] && (i >= count || follower_.variables()[i].taped == 0)) {
+      (i >= count ? missing_.appeared : missing_.too_large).push_back(variable(i).name);
       wanted_[i] = false;
     }
   }
+  wanted_.resize(count);
   copied_.resize(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     const schema::Type& type = variable(i).type;

@@ -89,7 +89,9 @@ class Recorder {
   [[nodiscard]] std::int64_t latest_ns() const noexcept { return latest_ns_; }
   [[nodiscard]] std::size_t variables() const noexcept;
   // Requested variables that no tape records, because they are too large.
-  [[nodiscard]] const std::vector<std::string>& too_large() const noexcept { return too_large_; }
+  [[nodiscard]] const std::vector<std::string>& too_large() const noexcept { return missing_.too_large; }
+  // Requested variables that the tape does not have, because they appeared while the node runs.
+  [[nodiscard]] const std::vector<std::string>& appeared() const noexcept { return missing_.appeared; }
 
  private:
   Recorder(std::string prefix, const vars::Store& store, tape::Follower follower, About about)
@@ -134,7 +136,11 @@ class Recorder {
   About about_;
   std::vector<bool> wanted_;
   std::vector<bool> copied_;  // variables with the same bytes in memory and in the file
-  std::vector<std::string> too_large_;
+  struct Missing {
+    std::vector<std::string> too_large;
+    std::vector<std::string> appeared;
+  };
+  Missing missing_;
   std::vector<std::uint16_t> channels_;  // channels of variables; 0: none yet
   std::map<std::string, std::uint16_t> schemas_;
   std::uint16_t runs_channel_ = 0;

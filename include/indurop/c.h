@@ -67,9 +67,10 @@ IRP_API const char* irp_node_name(const irp_node* node);
 /* Returns IRP_OK while the node runs, IRP_GONE after it has ended, or IRP_CHANGED. */
 IRP_API irp_code irp_running(const irp_node* node);
 
-/* After IRP_CHANGED (a deployment gave the node other variables): takes the node's present memory. Ids stay valid for
- * variables whose name and type are the same; the others return IRP_NOT_FOUND or IRP_SIZE until they are found again.
- * Without a change it has no effect. Errors: those of irp_open(); the handle then keeps the former memory. */
+/* After IRP_CHANGED (a deployment or a new version of a module gave the node other variables, or this one another
+ * type): takes the node's present memory. Ids stay valid for variables whose name and type are the same; the others
+ * return IRP_NOT_FOUND or IRP_SIZE until they are found again. Without a change it has no effect. Errors: those of
+ * irp_open(); the handle then keeps the former memory. */
 IRP_API irp_code irp_refresh(irp_node* node);
 
 /* ---- Variables ---- */
@@ -79,7 +80,8 @@ IRP_API size_t irp_count(const irp_node* node);
 IRP_API const char* irp_name(const irp_node* node, size_t index);
 
 /* Finds a variable or a part of one: "knu::Robot::joints[1].y"; leading namespaces may be left out if the rest is
- * unique. Errors: IRP_NOT_FOUND (irp_error() has the nearest name). */
+ * unique. Errors: IRP_NOT_FOUND (irp_error() has the nearest name), IRP_CHANGED (it may be one of those that the node
+ * has since the handle was opened or refreshed). */
 IRP_API irp_code irp_find(irp_node* node, const char* name, uint32_t* id);
 
 enum {

@@ -21,9 +21,13 @@ void FailSafe::add(const config::Module& module) {
     if (!place) {
       continue;
     }
-    Write write{store_.find(place.value().variable->name_hash()), place.value().offset, {}};
+    const vars::DirectoryEntry* const entry = store_.find(place.value().variable->name_hash());
+    if (entry == nullptr) {
+      continue;
+    }
+    Write write{*entry, place.value().offset, {}};
     write.bytes.resize(place.value().type.size());
-    if (write.variable != nullptr && schema::parse_value(place.value().type, declared.value, write.bytes)) {
+    if (schema::parse_value(place.value().type, declared.value, write.bytes)) {
       writes.push_back(std::move(write));
     }
   }
@@ -31,7 +35,7 @@ void FailSafe::add(const config::Module& module) {
 
 void FailSafe::apply(std::size_t module) noexcept {
   for (const Write& write : writes_[module]) {
-    (void)store_.write(*write.variable, write.offset, write.bytes);  // a lock held too long is counted as lost write
+    (void)store_.write(write.variable, write.offset, write.bytes);  // a lock held too long is counted as lost write
   }
 }
 

@@ -24,7 +24,7 @@ class FailSafe {
 
  private:
   struct Write {
-    const vars::DirectoryEntry* variable;
+    vars::DirectoryEntry variable;
     std::uint32_t offset;
     std::vector<std::uint8_t> bytes;
   };

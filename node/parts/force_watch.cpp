@@ -9,10 +9,6 @@
 namespace indurop::node {
 namespace {
 
-bool is_same(const vars::Force& a, const vars::Force& b) noexcept {
-  return a.variable == b.variable && a.offset == b.offset;
-}
-
 schema::Part part_of(const vars::Store& store, const vars::Force& force) {
   return schema::part_at(store.schema().variables[force.variable->schema_index], force.offset);
 }
@@ -38,21 +34,20 @@ bool ForceWatch::is_lease(const vars::Force& force) const {
 void ForceWatch::report_changes(vars::Store& store, Console& console) {
   std::vector<Known> now;
   for (const vars::Force& one : store.forces()) {
-    const auto before =
-        std::find_if(known_.begin(), known_.end(), [&](const Known& k) { return is_same(k.force, one); });
+    const auto before = std::find_if(known_.begin(), known_.end(), [&](const Known& k) { return k.is_of(one); });
     const bool held = before != known_.end() && before->force.value == one.value;
     const bool unchanged = held && before->force.until == one.until;
-    now.push_back({one, unchanged ? before->lease : is_lease(one)});
+    const schema::Part part = part_of(store, one);
+    now.push_back({one, one.variable->offset, part.name, unchanged ? before->lease : is_lease(one)});
     const bool renewed = held && before->lease && now.back().lease;
     if (!unchanged && !renewed) {
-      const schema::Part part = part_of(store, one);
       console.warning("{} is forced to {} {}", part.name, schema::format_value(part.type, one.bytes()),
                       time_of(now.back(), store.now()));
     }
   }
   for (const Known& one : known_) {
-    if (std::none_of(now.begin(), now.end(), [&](const Known& k) { return is_same(k.force, one.force); })) {
-      console.info("{} is no longer forced", part_of(store, one.force).name);
+    if (std::none_of(now.begin(), now.end(), [&](const Known& k) { return one.is_of(k.force); })) {
+      console.info("{} is no longer forced", one.name);
       store.release_overdue();
     }
   }

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,8 +23,13 @@ class ForceWatch {
 
  private:
   struct Known {
-    vars::Force force;
+    vars::Force force;    // its variable is valid in the next call only if the store has not grown
+    std::uint64_t place;  // of the variable in the store
+    std::string name;
     bool lease = false;  // it ends unless its client renews it
+    [[nodiscard]] bool is_of(const vars::Force& other) const noexcept {
+      return place == other.variable->offset && force.offset == other.offset;
+    }
   };
 
   [[nodiscard]] bool is_lease(const vars::Force& force) const;

@@ -30,7 +30,7 @@ constexpr std::int64_t kRetryNs = 100'000'000;  // interval at which a handle wi
 
 // A name that was resolved, or the reason why that failed.
 struct Resolved {
-  const indurop::vars::DirectoryEntry* entry = nullptr;
+  indurop::vars::DirectoryEntry entry{};
   std::uint32_t offset = 0;
   std::uint32_t size = 0;
   schema::Base base = schema::Base::Struct;
@@ -151,12 +151,13 @@ Resolved& Handle::Impl::resolve(std::string_view name) {
     runtime::Process::get().report(fmt::format("channel to node '{}': {}", node, place.error().message));
     return part;
   }
-  part.entry = attachment->store().find(place.value().variable->name_hash());
   part.offset = place.value().offset;
   part.size = static_cast<std::uint32_t>(place.value().type.size());
   part.base = place.value().type.base;
   part.is_array = !place.value().type.dims.empty();
-  if (part.entry == nullptr) {
+  if (const auto* entry = attachment->store().find(place.value().variable->name_hash()); entry != nullptr) {
+    part.entry = *entry;
+  } else {
     part.error = Errc::NotFound;
   }
   return part;
@@ -201,8 +202,8 @@ std::ptrdiff_t access_now(Handle::Impl& impl, std::string_view name, std::size_t
     return -static_cast<std::ptrdiff_t>(Errc::TypeMismatch);
   }
   auto* bytes = static_cast<std::uint8_t*>(value);
-  const Status status = is_write ? attachment->store().write(*part.entry, part.offset, {bytes, size})
-                                 : attachment->store().read(*part.entry, part.offset, {bytes, size});
+  const Status status = is_write ? attachment->store().write(part.entry, part.offset, {bytes, size})
+                                 : attachment->store().read(part.entry, part.offset, {bytes, size});
   return status ? static_cast<std::ptrdiff_t>(size) : -static_cast<std::ptrdiff_t>(status.error().code);
 }
 

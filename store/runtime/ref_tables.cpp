@@ -58,8 +58,9 @@ void RefTables::bind_table(Table& table, const Attachment* to, std::vector<Bindi
     void* entry = nullptr;
     if (to != nullptr) {
       const vars::DirectoryEntry* found = to->store().find(ref.name_hash);
-      const bool same = found != nullptr && found->kind == ref.kind && found->value_size == ref.value_size;
-      entry = same ? to->store().entry(ref.name_hash, ref.type_hash) : nullptr;
+      const bool wrong = found != nullptr && found->type_hash == ref.type_hash &&
+                         (found->kind != ref.kind || found->value_size != ref.value_size);
+      entry = wrong ? nullptr : to->store().place(ref.name_hash, ref.type_hash);
       if (entry == nullptr) {
         problems.push_back(describe(table, ref, *to));
       }
@@ -76,7 +77,8 @@ void RefTables::bind_table_apart(Table& table, const Attachment& values) {
     const vars::DirectoryEntry* found = values.store().find(ref.name_hash);
     abi::Ref copy = ref;
     bytes.resize(ref.value_size);
-    if (found != nullptr && found->value_size == ref.value_size && values.store().read(*found, 0, bytes).ok()) {
+    if (found != nullptr && found->type_hash == ref.type_hash && found->value_size == ref.value_size &&
+        values.store().read(*found, 0, bytes).ok()) {
       copy.initial = bytes.data();
     }
     __atomic_store_n(&ref.entry, table.apart->entry_of(copy), __ATOMIC_RELEASE);

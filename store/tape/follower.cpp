@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "store/tape/follower.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "store/tape/check.h"
@@ -31,6 +32,17 @@ void Follower::find_tracks(bool from_start) {
     const auto* const words = reinterpret_cast<const std::uint64_t*>(file_.data() + track.data_offset);
     tracks_.emplace_back(TrackReader::Source{shared++, words, track.words, track.module}, index_.variables, from_start);
   }
+}
+
+// The header of a store that was truncated is no longer valid; its tape may still be intact.
+bool Follower::is_of(const vars::Store& store) const noexcept {
+  const auto directory = store.directory();
+  return (store.lost() || header().layout_hash == store.header().layout_hash) &&
+         index_.variables.size() <= directory.size() &&
+         std::equal(index_.variables.begin(), index_.variables.end(), directory.begin(),
+                    [](const TapeVariable& taped, const vars::DirectoryEntry& entry) {
+                      return taped.size == entry.value_size;
+                    });
 }
 
 std::span<const std::uint8_t> Follower::first_value(std::uint32_t variable) const noexcept {

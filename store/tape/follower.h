@@ -16,6 +16,7 @@
 #include "store/tape/layout.h"
 #include "store/tape/track_reader.h"
 #include "store/vars/shm_file.h"
+#include "store/vars/store.h"
 
 namespace indurop::tape {
 
@@ -27,6 +28,8 @@ class Follower {
 
   [[nodiscard]] const TapeHeader& header() const noexcept;
   [[nodiscard]] std::span<const TapeVariable> variables() const noexcept { return index_.variables; }
+  // Returns true if its variables are those that the store had when its node started.
+  [[nodiscard]] bool is_of(const vars::Store& store) const noexcept;
   // The value before any module was started.
   [[nodiscard]] std::span<const std::uint8_t> first_value(std::uint32_t variable) const noexcept;
   [[nodiscard]] std::size_t tracks() const noexcept { return tracks_.size(); }

@@ -29,7 +29,10 @@ bool is_sound(const BatchEntry& entry, std::span<const DirectoryEntry> directory
 // One request to the tick thread. Everything is prepared before the first change becomes visible.
 class Order {
  public:
-  Order(const Store& store, const BatchBlock& block) noexcept : store_(store), block_(block) {}
+  Order(const Store& store, const BatchBlock& block) noexcept
+      : memory_(reinterpret_cast<std::byte*>(const_cast<BlockHeader*>(&store.header()))),  // NOLINT: mapped writable
+        directory_(store.directory()),
+        block_(block) {}
   Order(const Order&) = delete;
   Order& operator=(const Order&) = delete;
   ~Order() {
@@ -42,7 +45,7 @@ class Order {
   BatchState carry_out() noexcept {
     const std::size_t count = std::min<std::size_t>(block_.count, kMaxBatchValues);
     for (std::size_t i = 0; i < count; ++i) {
-      if (!is_sound(block_.entries[i], store_.directory())) {
+      if (!is_sound(block_.entries[i], directory_)) {
         return BatchState::Wrong;
       }
       if (variable(i).kind == abi::Kind::Ring && !prepare(i)) {
@@ -64,9 +67,9 @@ class Order {
 
  private:
   [[nodiscard]] const DirectoryEntry& variable(std::size_t i) const noexcept {
-    return store_.directory()[block_.entries[i].variable];
+    return directory_[block_.entries[i].variable];
   }
-  [[nodiscard]] void* place(std::size_t i) const noexcept { return store_.entry(variable(i).name_hash, 0); }
+  [[nodiscard]] void* place(std::size_t i) const noexcept { return memory_ + variable(i).offset; }
 
   // Parts of one variable are adjacent.
   bool prepare(std::size_t i) noexcept {
@@ -74,7 +77,7 @@ class Order {
     const bool same = i > 0 && block_.entries[i - 1].variable == entry.variable;
     if (!same) {
       auto* const ring = static_cast<abi::RingHeader*>(place(i));
-      slot_ = ring != nullptr ? static_cast<unsigned char*>(try_begin_edit(*ring)) : nullptr;
+      slot_ = static_cast<unsigned char*>(try_begin_edit(*ring));
       if (slot_ == nullptr) {
         return false;
       }
@@ -84,7 +87,8 @@ class Order {
     return true;
   }
 
-  const Store& store_;
+  std::byte* memory_;
+  std::span<const DirectoryEntry> directory_;
   const BatchBlock& block_;
   std::array<abi::RingHeader*, kMaxBatchValues> rings_{};  // held_ of them
   std::size_t held_ = 0;
@@ -210,6 +214,10 @@ Result<std::uint64_t> change_in_one_tick(const std::string& node, const Store& s
   }
   switch (block->state.load(std::memory_order_acquire)) {
     case BatchState::Done:
+      if (std::any_of(changes.begin(), changes.end(),
+                      [&store](const Change& one) { return store.moved(*one.variable); })) {
+        break;
+      }
       return block->tick.load(std::memory_order_relaxed);
     case BatchState::Busy:
       return Error{Errc::Busy, 0, "write lock of a variable"};

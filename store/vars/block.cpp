@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 #include <new>
+#include <numeric>
 #include <string_view>
 
 #include "core/rt/shared_mutex.h"
@@ -39,40 +40,6 @@ class Hash {
  private:
   std::uint64_t value_ = abi::fnv1a64("", 0);
 };
-
-std::uint64_t layout_hash(std::span<const DirectoryEntry> directory, std::string_view schema_text) noexcept {
-  Hash hash;
-  hash.add(abi::kVersion);
-  hash.add(sizeof(BlockHeader));
-  hash.add(sizeof(abi::RingHeader));
-  hash.add(rt::kLockKind);
-  hash.add(sizeof(void*));
-  hash.add(std::endian::native == std::endian::little ? 1 : 0);
-  hash.add(directory.data(), directory.size_bytes());
-  hash.add(schema_text.data(), schema_text.size());
-  return hash.value();
-}
-
-Result<DirectoryEntry> plan_variable(const schema::Variable& variable, std::size_t index) {
-  const std::uint64_t size = variable.type.size();
-  if (size == 0 || (variable.kind == abi::Kind::Scalar && !scalar_size(size))) {
-    return Error{Errc::InvalidArgument, 0, "size of a shared variable"};
-  }
-  if (!variable.initial.empty() && variable.initial.size() != size) {
-    return Error{Errc::InvalidArgument, 0, "size of a shared variable's initial value"};
-  }
-  if (size > std::numeric_limits<std::uint32_t>::max() - abi::kAlign) {
-    return Error{Errc::Overflow, 0, "size of a shared variable"};
-  }
-  DirectoryEntry entry{};
-  entry.name_hash = variable.name_hash();
-  entry.type_hash = variable.type_hash;
-  entry.value_size = static_cast<std::uint32_t>(size);
-  entry.kind = variable.kind;
-  entry.schema_index = static_cast<std::uint32_t>(index);
-  entry.flags = variable.retain ? kRetain : 0;
-  return entry;
-}
 
 bool unique(std::vector<std::uint64_t> hashes) {
   std::sort(hashes.begin(), hashes.end());
@@ -138,12 +105,48 @@ bool inside(std::span<const std::byte> memory, std::uint64_t offset, std::uint64
   return offset % abi::kAlign == 0 && offset <= memory.size() && size <= memory.size() - offset;
 }
 
+Catalog catalog_of(const BlockHeader& header, std::uint64_t growths) noexcept {
+  return growths != 0 ? header.catalogs[growths % kCatalogs]
+                      : Catalog{header.layout_hash,   header.total_size,  header.directory_offset,
+                                header.schema_offset, header.schema_size, header.variable_count};
+}
+
 bool sane(std::span<const std::byte> memory, const DirectoryEntry& entry, const schema::Schema& schema) noexcept {
   return (entry.kind == abi::Kind::Ring || (entry.kind == abi::Kind::Scalar && scalar_size(entry.value_size))) &&
          entry.schema_index < schema.variables.size() && entry.offset >= sizeof(BlockHeader) &&
          inside(memory, entry.offset, abi::entry_size(entry.kind, entry.value_size)) &&
          schema.variables[entry.schema_index].type.size() == entry.value_size &&
          schema.variables[entry.schema_index].name_hash() == entry.name_hash;
+}
+
+// Errors: Corrupt, VersionMismatch.
+Result<BlockIndex> read_catalog(std::span<const std::byte> memory, const BlockHeader& header, const Catalog& catalog) {
+  const Error corrupt{Errc::Corrupt, 0, "directory of the store"};
+  constexpr std::uint32_t kMaxVariables = 1'000'000;
+  constexpr std::uint64_t kMaxText = std::uint64_t{256} << 20U;
+  BlockIndex index;
+  std::vector<char> text;
+  if (catalog.total_size > memory.size() || catalog.variable_count > kMaxVariables || catalog.schema_size > kMaxText ||
+      !copy_table(memory, catalog.directory_offset, catalog.variable_count, index.directory) ||
+      !copy_table(memory, catalog.schema_offset, catalog.schema_size, text)) {
+    return corrupt;
+  }
+  const std::string_view schema_text(text.data(), text.size());
+  if (layout_hash_of(index.directory, schema_text) != catalog.layout_hash) {
+    return corrupt;
+  }
+  auto schema = schema::from_json(schema_text);
+  if (!schema) {
+    return schema.error();
+  }
+  index.schema = std::move(schema.value());
+  const auto fits = [&](const auto& entry) { return sane(memory, entry, index.schema); };
+  if (!sort_by_name(index) || !std::all_of(index.directory.begin(), index.directory.end(), fits) ||
+      header.function_count != index.schema.functions.size() ||
+      !inside(memory, header.functions_offset, call_area_size(index.schema))) {
+    return corrupt;
+  }
+  return index;
 }
 
 }  // namespace
@@ -153,6 +156,52 @@ BlockHeader* header_of(std::byte* memory) noexcept {
 }
 const BlockHeader* header_of(const std::byte* memory) noexcept {
   return reinterpret_cast<const BlockHeader*>(memory);
+}
+
+std::uint64_t layout_hash_of(std::span<const DirectoryEntry> directory, std::string_view schema_text) noexcept {
+  Hash hash;
+  hash.add(abi::kVersion);
+  hash.add(sizeof(BlockHeader));
+  hash.add(sizeof(abi::RingHeader));
+  hash.add(rt::kLockKind);
+  hash.add(sizeof(void*));
+  hash.add(std::endian::native == std::endian::little ? 1 : 0);
+  hash.add(directory.data(), directory.size_bytes());
+  hash.add(schema_text.data(), schema_text.size());
+  return hash.value();
+}
+
+Result<DirectoryEntry> plan_variable(const schema::Variable& variable, std::size_t schema_index) {
+  const std::uint64_t size = variable.type.size();
+  if (size == 0 || (variable.kind == abi::Kind::Scalar && !scalar_size(size))) {
+    return Error{Errc::InvalidArgument, 0, "size of a shared variable"};
+  }
+  if (!variable.initial.empty() && variable.initial.size() != size) {
+    return Error{Errc::InvalidArgument, 0, "size of a shared variable's initial value"};
+  }
+  if (size > std::numeric_limits<std::uint32_t>::max() - abi::kAlign) {
+    return Error{Errc::Overflow, 0, "size of a shared variable"};
+  }
+  DirectoryEntry entry{};
+  entry.name_hash = variable.name_hash();
+  entry.type_hash = variable.type_hash;
+  entry.value_size = static_cast<std::uint32_t>(size);
+  entry.kind = variable.kind;
+  entry.schema_index = static_cast<std::uint32_t>(schema_index);
+  entry.flags = variable.retain ? kRetain : 0;
+  return entry;
+}
+
+bool fill_entry(std::byte* entry, const schema::Variable& variable) {
+  const auto& initial = variable.initial;
+  if (variable.kind == abi::Kind::Ring) {
+    return init_ring(entry, static_cast<std::uint32_t>(variable.type.size()),
+                     initial.empty() ? nullptr : initial.data());
+  }
+  if (!initial.empty()) {
+    std::memcpy(entry, initial.data(), initial.size());
+  }
+  return true;
 }
 
 Result<BlockPlan> plan_block(const schema::Schema& schema) {
@@ -167,7 +216,7 @@ Result<BlockPlan> plan_block(const schema::Schema& schema) {
   }
   plan.schema_text = schema::to_json(plan.schema);
   place_entries(plan);
-  plan.layout_hash = layout_hash(plan.directory, plan.schema_text);
+  plan.layout_hash = layout_hash_of(plan.directory, plan.schema_text);
   return plan;
 }
 
@@ -194,10 +243,7 @@ Status fill_block(std::byte* memory, const BlockPlan& plan, const std::string& n
   put(plan.schema_offset, plan.schema_text.data(), plan.schema_text.size());
   const Error no_locks{Errc::Unsupported, 0, "a lock that processes share"};
   for (const DirectoryEntry& entry : plan.directory) {
-    const auto& initial = plan.schema.variables[entry.schema_index].initial;
-    if (entry.kind == abi::Kind::Scalar) {
-      put(entry.offset, initial.data(), initial.size());
-    } else if (!init_ring(memory + entry.offset, entry.value_size, initial.empty() ? nullptr : initial.data())) {
+    if (!fill_entry(memory + entry.offset, plan.schema.variables[entry.schema_index])) {
       return no_locks;
     }
   }
@@ -224,7 +270,7 @@ Status check_header(std::span<const std::byte> memory) {
   }
   const BlockState state = header.state.load(std::memory_order_acquire);
   const bool known_state = state == BlockState::Ready || state == BlockState::Retired;
-  if (header.total_size != memory.size() || !known_state ||
+  if (header.total_size > memory.size() || header.total_size % kPage != 0 || !known_state ||
       std::memchr(header.node_name, 0, sizeof(header.node_name)) == nullptr) {
     return Error{Errc::Corrupt, 0, "header of the store"};
   }
@@ -236,41 +282,39 @@ Result<BlockIndex> check_block(std::span<const std::byte> memory) {
     return status.error();
   }
   const BlockHeader& header = *header_of(memory.data());
-  const Error corrupt{Errc::Corrupt, 0, "directory of the store"};
-  constexpr std::uint32_t kMaxVariables = 1'000'000;
-  constexpr std::uint64_t kMaxText = std::uint64_t{256} << 20U;
-  BlockIndex index;
-  std::vector<char> text;
-  const std::uint32_t variables = header.variable_count;
-  const std::uint64_t text_size = header.schema_size;
-  if (variables > kMaxVariables || text_size > kMaxText ||
-      !copy_table(memory, header.directory_offset, variables, index.directory) ||
-      !copy_table(memory, header.schema_offset, text_size, text)) {
-    return corrupt;
+  const std::uint64_t growths = header.growths.load(std::memory_order_acquire);
+  const Catalog catalog = catalog_of(header, growths);
+  const std::uint64_t end = std::min<std::uint64_t>(catalog.total_size, memory.size());
+  auto index = read_catalog(memory.first(end), header, catalog);
+  std::atomic_thread_fence(std::memory_order_acquire);
+  const bool overwritten = header.growths.load(std::memory_order_relaxed) != growths;  // perhaps the next but one
+  const bool longer = growths != 0 && catalog.total_size > memory.size();
+  if (!index && (overwritten || longer)) {
+    return Error{Errc::Busy, 0, "store has just grown"};
   }
-  const std::string_view schema_text(text.data(), text.size());
-  if (layout_hash(index.directory, schema_text) != header.layout_hash) {
-    return corrupt;
-  }
-  auto schema = schema::from_json(schema_text);
-  if (!schema) {
-    return schema.error();
-  }
-  index.schema = std::move(schema.value());
-  const auto fits = [&](const auto& entry) { return sane(memory, entry, index.schema); };
-  if (!ordered(index.directory) || !std::all_of(index.directory.begin(), index.directory.end(), fits) ||
-      header.function_count != index.schema.functions.size() ||
-      !inside(memory, header.functions_offset, call_area_size(index.schema))) {
-    return corrupt;
+  if (index) {
+    index->growths = growths;
+    index->layout_hash = catalog.layout_hash;
   }
   return index;
 }
 
-const DirectoryEntry* find_entry(const std::vector<DirectoryEntry>& directory, std::uint64_t name_hash) noexcept {
+bool sort_by_name(BlockIndex& index) {
+  index.by_name.resize(index.directory.size());
+  std::iota(index.by_name.begin(), index.by_name.end(), 0U);
+  const auto hash = [&](std::uint32_t place) { return index.directory[place].name_hash; };
+  std::sort(index.by_name.begin(), index.by_name.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return hash(a) < hash(b); });
+  return std::adjacent_find(index.by_name.begin(), index.by_name.end(), [&](std::uint32_t a, std::uint32_t b) {
+           return hash(a) == hash(b);
+         }) == index.by_name.end();
+}
+
+const DirectoryEntry* BlockIndex::find(std::uint64_t name_hash) const noexcept {
   const auto at =
-      std::lower_bound(directory.begin(), directory.end(), name_hash,
-                       [](const DirectoryEntry& entry, std::uint64_t hash) { return entry.name_hash < hash; });
-  return at != directory.end() && at->name_hash == name_hash ? &*at : nullptr;
+      std::lower_bound(by_name.begin(), by_name.end(), name_hash,
+                       [this](std::uint32_t place, std::uint64_t hash) { return directory[place].name_hash < hash; });
+  return at != by_name.end() && directory[*at].name_hash == name_hash ? &directory[*at] : nullptr;
 }
 
 }  // namespace indurop::vars

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/schema/schema.h"
@@ -38,16 +39,29 @@ Status fill_block(std::byte* memory, const BlockPlan& plan, const std::string& n
 // Errors: Busy (not yet complete), VersionMismatch (another ABI), Corrupt (not a store's header, or of another size).
 Status check_header(std::span<const std::byte> memory);
 
-// The block's constant parts, copied so that no process can change them during use.
+// What a block has, copied so that no process can change it during use.
 struct BlockIndex {
-  std::vector<DirectoryEntry> directory;
+  std::vector<DirectoryEntry> directory;  // an entry keeps its place in it when the store grows
   schema::Schema schema;
-};
-// Errors: Busy (not yet complete), VersionMismatch (another ABI), Corrupt (anything inconsistent).
-Result<BlockIndex> check_block(std::span<const std::byte> memory);
+  std::vector<std::uint32_t> by_name;  // places in the directory, in the order of name hashes
+  std::uint64_t growths = 0;
+  std::uint64_t layout_hash = 0;  // of all this
 
-// Returns null if the directory, which is sorted, has no such variable. Real-time safe.
-const DirectoryEntry* find_entry(const std::vector<DirectoryEntry>& directory, std::uint64_t name_hash) noexcept;
+  // Returns null if there is no such variable. Real-time safe.
+  [[nodiscard]] const DirectoryEntry* find(std::uint64_t name_hash) const noexcept;
+};
+// Errors: Busy (not yet complete, or it has just grown: map it again), VersionMismatch (another ABI), Corrupt (anything
+// inconsistent).
+Result<BlockIndex> check_block(std::span<const std::byte> memory);
+// Completes `by_name`. Returns false if two variables have one name.
+bool sort_by_name(BlockIndex& index);
+
+// The entry of a variable, without its offset. Errors: InvalidArgument, Overflow; see plan_block().
+Result<DirectoryEntry> plan_variable(const schema::Variable& variable, std::size_t schema_index);
+// Makes the entry of a variable in zeroed memory, with its initial value. Returns false if the system has no robust
+// locks.
+bool fill_entry(std::byte* entry, const schema::Variable& variable);
+std::uint64_t layout_hash_of(std::span<const DirectoryEntry> directory, std::string_view schema_text) noexcept;
 
 BlockHeader* header_of(std::byte* memory) noexcept;
 const BlockHeader* header_of(const std::byte* memory) noexcept;

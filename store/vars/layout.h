@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes of the store's block: header, directory sorted by name hash, schema text, variable entries, call slots.
-// Any change here requires a new abi::kVersion.
+// Bytes of the store's block: header, directory sorted by name hash, schema text, variable entries, call slots; behind
+// them what the store has grown by while its node runs. Any change here requires a new abi::kVersion, or another size
+// of the header.
 
 #pragma once
 
@@ -37,11 +38,22 @@ struct ForceTable {
   ForceSlot slots[kMaxForces];
 };
 
+// What a store has since it grew: a directory, which begins with the entries that were there before, and a schema.
+struct Catalog {
+  std::uint64_t layout_hash;
+  std::uint64_t total_size;  // of the block, up to the end of what the catalog names
+  std::uint64_t directory_offset;
+  std::uint64_t schema_offset;
+  std::uint64_t schema_size;
+  std::uint64_t variable_count;
+};
+inline constexpr std::size_t kCatalogs = 2;  // the present one and the next one
+
 struct BlockHeader {
   std::atomic<std::uint64_t> magic;  // stored last, when the block is complete
   std::uint32_t abi;
   std::uint32_t header_size;
-  std::uint64_t total_size;
+  std::uint64_t total_size;   // this and all other values that are not atomic: when the block was created
   std::uint64_t layout_hash;  // over directory and schema text
   std::atomic<std::uint64_t> generation;
   std::atomic<BlockState> state;
@@ -57,8 +69,19 @@ struct BlockHeader {
   std::uint64_t
       functions_offset;  // area of store/vars/call_layout.h: call_area_size(schema) bytes, init_call_area() fills it
   char node_name[kMaxNodeName];
+  std::atomic<std::uint64_t> growths;  // the present catalog is catalogs[growths % kCatalogs]; 0: see above
+  Catalog catalogs[kCatalogs];
   ForceTable forces;
 };
+
+// The growth with which another place got the name of this entry, because the type of the variable changed; 0: none.
+inline std::atomic<std::uint64_t>& moved_of(void* entry, abi::Kind kind) noexcept {
+  constexpr std::size_t kScalarWord = 5;  // behind those that include/indurop/detail/abi.h uses
+  if (kind == abi::Kind::Ring) {
+    return reinterpret_cast<std::atomic<std::uint64_t>&>(static_cast<abi::RingHeader*>(entry)->reserved[0]);
+  }
+  return static_cast<std::atomic<std::uint64_t>*>(entry)[kScalarWord];
+}
 
 // The time of the node, which forces, ages and modules use. Real-time safe.
 inline rt::MonoTime time_of(const BlockHeader& header) noexcept {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "store/vars/growth.h"
 #include "store/vars/scalar.h"
 #include "store/vars/tear_free_ring.h"
 
@@ -13,7 +14,7 @@ namespace indurop::vars {
 
 Result<PreviousBlock> PreviousBlock::find(const std::string& node) {
   PreviousBlock previous;
-  auto file = ShmFile::open(block_file(node), Mode::ReadWrite);
+  auto file = ShmFile::open(block_file(node), Mode::ReadWrite, kGrowthRoom);
   if (!file) {
     const Errc code = file.error().code;
     if (code == Errc::NotFound || code == Errc::Corrupt) {
@@ -35,7 +36,7 @@ void PreviousBlock::retire() const noexcept {
 void PreviousBlock::carry_over(const BlockPlan& plan, std::byte* memory) const {
   std::vector<std::uint8_t> value;
   for (const DirectoryEntry& to : plan.directory) {
-    const DirectoryEntry* from = find_entry(index->directory, to.name_hash);
+    const DirectoryEntry* from = index->find(to.name_hash);
     if (from == nullptr || from->type_hash != to.type_hash || from->kind != to.kind ||
         from->value_size != to.value_size) {
       continue;
@@ -61,6 +62,7 @@ void PreviousBlock::own_everything() const noexcept {
     std::byte* const at = file->data() + entry.offset;
     abi::confirmed_of(at, entry.kind).store(0, std::memory_order_release);
     abi::update_offset_of(at, entry.kind).store(0, std::memory_order_release);
+    moved_of(at, entry.kind).store(0, std::memory_order_release);  // if it was killed while the type changed
   }
 }
 

@@ -256,7 +256,7 @@ void RetainFile::prepare(const Store& store) {
     }
   }
   types_ = schema::to_json(types);
-  layout_ = store.header().layout_hash;
+  layout_ = store.layout_hash();
 }
 
 Status RetainFile::save(const Store& store, bool* written) {
@@ -269,7 +269,7 @@ Status RetainFile::save(const Store& store, bool* written) {
       return status;
     }
   }
-  if (layout_ != store.header().layout_hash) {
+  if (layout_ != store.layout_hash()) {
     prepare(store);
   }
   auto payload = collect(store, types_, kept_);

@@ -13,6 +13,7 @@
 #include <iceoryx_hoofs/internal/posix_wrapper/shared_memory_object/memory_map.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -68,12 +69,24 @@ Result<MemoryMap> map(int file, std::size_t size, Mode mode) {
   return std::move(mapped.value());
 }
 
-int allocate(int file, std::size_t size) noexcept {
+int allocate(int file, std::size_t from, std::size_t size) noexcept {
   int error = EINTR;
   while (error == EINTR) {
-    error = ::posix_fallocate(file, 0, static_cast<off_t>(size));
+    error = ::posix_fallocate(file, static_cast<off_t>(from), static_cast<off_t>(size));
   }
   return error;
+}
+
+void make_present(std::byte* memory, std::size_t size, Mode mode) noexcept {
+  const int advice = mode == Mode::ReadWrite ? MADV_POPULATE_WRITE : MADV_POPULATE_READ;
+  if (::madvise(memory, size, advice) == 0) {
+    return;
+  }
+  // Kernels before 5.14: a read makes the page present, the first write may still cost a minor fault.
+  constexpr std::size_t kSmallestPage = 4096;
+  for (std::size_t i = 0; i < size; i += kSmallestPage) {
+    static_cast<void>(__atomic_load_n(reinterpret_cast<const unsigned char*>(memory) + i, __ATOMIC_RELAXED));
+  }
 }
 
 int open_file(const std::string& name, Mode mode) noexcept {
@@ -102,15 +115,19 @@ Status inspect(const Descriptor& file, struct stat& info) noexcept {
 }  // namespace
 
 struct ShmFile::Impl {
-  Impl(MemoryMap&& mapped, const struct stat& status, Mode access, const std::string& name)
+  Impl(MemoryMap&& mapped, const struct stat& status, std::size_t room, Mode access, const std::string& name)
       : memory(std::move(mapped)),
-        guard(memory.getBaseAddress(), static_cast<std::size_t>(status.st_size), access == Mode::ReadWrite, name),
+        most(static_cast<std::size_t>(status.st_size) + room),
+        guard(memory.getBaseAddress(), most, access == Mode::ReadWrite, name),
         info(status),
+        size(static_cast<std::size_t>(status.st_size)),
         mode(access),
         final_path(path_of(name)) {}
   MemoryMap memory;
+  std::size_t most;  // bytes of addresses
   rt::GuardedMapping guard;
-  struct stat info;
+  struct stat info;  // when it was mapped
+  std::atomic<std::size_t> size;
   Mode mode;
   std::string unpublished;  // temporary path, empty if the file has its name
   std::string final_path;
@@ -172,20 +189,20 @@ std::uint64_t store_number(const std::string& node) noexcept {
   return ::stat(path.c_str(), &info) == 0 ? info.st_ino : 0;
 }
 
-Result<ShmFile> ShmFile::open(const std::string& name, Mode mode) {
+Result<ShmFile> ShmFile::open(const std::string& name, Mode mode, std::size_t room) {
   const Descriptor file(open_file(name, mode));
   struct stat info {};
   if (const Status good = inspect(file, info); !good) {
     return good.error();
   }
-  auto mapped = map(file.get(), static_cast<std::size_t>(info.st_size), mode);
+  auto mapped = map(file.get(), static_cast<std::size_t>(info.st_size) + room, mode);
   if (!mapped) {
     return mapped.error();
   }
-  return ShmFile(std::make_unique<Impl>(std::move(mapped.value()), info, mode, name));
+  return ShmFile(std::make_unique<Impl>(std::move(mapped.value()), info, room, mode, name));
 }
 
-Result<ShmFile> ShmFile::create(const std::string& name, std::size_t size) {
+Result<ShmFile> ShmFile::create(const std::string& name, std::size_t size, std::size_t room) {
   if (Status status = remove_unfinished(name); !status) {
     return status.error();
   }
@@ -201,19 +218,19 @@ Result<ShmFile> ShmFile::create(const std::string& name, std::size_t size) {
   if (::fchmod(file.get(), kShmMode) != 0) {
     return give_up(errno, "set rights of shared memory");
   }
-  if (const int error = allocate(file.get(), size); error != 0) {
+  if (const int error = allocate(file.get(), 0, size); error != 0) {
     return give_up(error, "reserve shared memory");
   }
   struct stat info {};
   if (::fstat(file.get(), &info) != 0) {
     return give_up(errno, "inspect new shared memory");
   }
-  auto mapped = map(file.get(), size, Mode::ReadWrite);
+  auto mapped = map(file.get(), size + room, Mode::ReadWrite);
   if (!mapped) {
     ::unlink(temporary.c_str());
     return mapped.error();
   }
-  auto impl = std::make_unique<Impl>(std::move(mapped.value()), info, Mode::ReadWrite, name);
+  auto impl = std::make_unique<Impl>(std::move(mapped.value()), info, room, Mode::ReadWrite, name);
   impl->unpublished = temporary;
   return ShmFile(std::move(impl));
 }
@@ -241,6 +258,30 @@ Result<ShmCopy> ShmCopy::of(const std::string& name) {
   return copy;
 }
 
+Status ShmFile::grow(std::size_t size) noexcept {
+  const std::size_t before = impl_->size.load(std::memory_order_relaxed);
+  if (size <= before) {
+    return {};
+  }
+  if (size > impl_->most) {
+    return Error{Errc::NoSpace, 0, "room that was reserved for shared memory to grow"};
+  }
+  const Descriptor file(::open(impl_->final_path.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK));
+  struct stat now {};
+  if (file.get() < 0 || ::fstat(file.get(), &now) != 0) {
+    return os_error(errno, "open shared memory that grows");
+  }
+  if (now.st_ino != impl_->info.st_ino || now.st_dev != impl_->info.st_dev) {
+    return Error{Errc::NotFound, 0, "the shared memory's file was replaced"};
+  }
+  if (const int error = allocate(file.get(), before, size - before); error != 0) {
+    return os_error(error, "reserve shared memory");
+  }
+  impl_->size.store(size, std::memory_order_release);
+  make_present(data() + before, size - before, mode());
+  return {};
+}
+
 Status ShmFile::publish() noexcept {
   if (::rename(impl_->unpublished.c_str(), impl_->final_path.c_str()) != 0) {
     return os_error(errno, "give shared memory its name");
@@ -265,7 +306,7 @@ std::byte* ShmFile::data() const noexcept {
   return static_cast<std::byte*>(impl_->memory.getBaseAddress());
 }
 std::size_t ShmFile::size() const noexcept {
-  return static_cast<std::size_t>(impl_->info.st_size);
+  return impl_->size.load(std::memory_order_acquire);
 }
 Mode ShmFile::mode() const noexcept {
   return impl_->mode;
@@ -289,19 +330,11 @@ ShmFile::Named ShmFile::named() const noexcept {
       now.st_ino != impl_->info.st_ino) {
     return Named::Gone;
   }
-  return now.st_size < impl_->info.st_size ? Named::Cut : Named::Whole;
+  return static_cast<std::size_t>(now.st_size) < size() ? Named::Cut : Named::Whole;
 }
 
 void ShmFile::prefault() const noexcept {
-  const int advice = mode() == Mode::ReadWrite ? MADV_POPULATE_WRITE : MADV_POPULATE_READ;
-  if (::madvise(data(), size(), advice) == 0) {
-    return;
-  }
-  // Kernels before 5.14: a read makes the page present, the first write may still cost a minor fault.
-  constexpr std::size_t kSmallestPage = 4096;
-  for (std::size_t i = 0; i < size(); i += kSmallestPage) {
-    static_cast<void>(__atomic_load_n(reinterpret_cast<const unsigned char*>(data()) + i, __ATOMIC_RELAXED));
-  }
+  make_present(data(), size(), mode());
 }
 
 Status remove_unfinished(const std::string& name) noexcept {

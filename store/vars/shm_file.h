@@ -42,12 +42,19 @@ inline constexpr mode_t kShmMode = 0664;
 class ShmFile {
  public:
   // Maps an existing file whole. If the file is truncated meanwhile, no process crashes: see lost(). Errors: NotFound,
-  // PermissionDenied, Corrupt (empty, or not a regular file), NoSpace (limit of locked memory), System.
-  static Result<ShmFile> open(const std::string& name, Mode mode);
+  // PermissionDenied, Corrupt (empty, or not a regular file), NoSpace (limit of locked memory), System. `room`: see
+  // grow().
+  static Result<ShmFile> open(const std::string& name, Mode mode, std::size_t room = 0);
 
   // Creates a zeroed file of exactly `size` bytes, all of it allocated, mapped read-write, not yet visible under its
   // name. Errors: NoSpace, PermissionDenied (the temporary name is another user's), System. On error no file is left.
-  static Result<ShmFile> create(const std::string& name, std::size_t size);
+  static Result<ShmFile> create(const std::string& name, std::size_t size, std::size_t room = 0);
+
+  // Makes the published file longer, with zeros, present in memory; what is mapped stays where it is. Addresses for
+  // `room` bytes are reserved behind the mapping, which costs no memory. Not real-time safe; one thread at a time,
+  // while others may use the file. Errors: NoSpace (no room, or no memory), NotFound (the name was removed), System. On
+  // error nothing has changed.
+  Status grow(std::size_t size) noexcept;
 
   // Gives the file its name, replacing an older file of that name for every process that opens it from now on. Errors:
   // PermissionDenied (the older file is another user's), System.

@@ -43,6 +43,11 @@ Status read_snapshot(const Store& store, std::span<const PartToRead> parts) {
   if (store.lost()) {
     return Error{Errc::Dead, 0, "the store was truncated by a process with write access"};
   }
+  const bool moved =
+      std::any_of(parts.begin(), parts.end(), [&store](const PartToRead& part) { return store.moved(*part.variable); });
+  if (moved) {
+    return Error{Errc::TypeMismatch, 0, "a variable has another layout since"};
+  }
   if (together != Together::Yes) {
     return Error{Errc::Busy, 0, "read values as they were at one moment"};
   }

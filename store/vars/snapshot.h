@@ -20,7 +20,8 @@ struct PartToRead {
 
 // Fills every part's `to` with what it was at one moment, between two commits; values of another board after one update
 // of that board. Allocates; not real-time safe. Errors: OutOfRange (a part exceeds its variable), Dead (the store was
-// truncated), Busy (the values were written without a pause, or are not sent together; `to` is unchanged then).
+// truncated), TypeMismatch (the type of a variable has changed since it was found: attach again), Busy (the values were
+// written without a pause, or are not sent together; `to` is unchanged then).
 Status read_snapshot(const Store& store, std::span<const PartToRead> parts);
 
 }  // namespace indurop::vars

@@ -11,6 +11,7 @@
 #include <array>
 #include <chrono>
 #include <cstring>
+#include <deque>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -26,9 +27,22 @@
 namespace indurop::vars {
 
 struct Store::Impl {
-  Impl(ShmFile&& mapped, BlockIndex&& contents, Origin from) noexcept
-      : file(std::move(mapped)), index(std::move(contents)), origin(from) {}
+  Impl(ShmFile&& mapped, BlockIndex&& contents, Origin from) noexcept : file(std::move(mapped)), origin(from) {
+    keep(std::make_unique<BlockIndex>(std::move(contents)));
+    if (from != Origin::Attached) {
+      growth = std::make_unique<Growth>(file, *indices.front());
+    }
+  }
 
+  // Other threads may be using an older one: the first is kept, and some of the latest.
+  void keep(std::unique_ptr<const BlockIndex> newest) {
+    present.store(newest.get(), std::memory_order_release);
+    indices.push_back(std::move(newest));
+    if (constexpr std::size_t kKept = 9; indices.size() > kKept) {
+      indices.erase(indices.begin() + 1);
+    }
+  }
+  [[nodiscard]] const BlockIndex& index() const noexcept { return *present.load(std::memory_order_acquire); }
   [[nodiscard]] BlockHeader& header() const noexcept { return *header_of(file.data()); }
   [[nodiscard]] abi::RingHeader& ring(const DirectoryEntry& variable) const noexcept {
     return *reinterpret_cast<abi::RingHeader*>(file.data() + variable.offset);
@@ -41,14 +55,17 @@ struct Store::Impl {
   }
 
   ShmFile file;
-  BlockIndex index;
+  std::atomic<const BlockIndex*> present{nullptr};  // the newest one
+  std::deque<std::unique_ptr<const BlockIndex>> indices;
   Origin origin;
+  std::unique_ptr<Growth> growth;  // null: another process created the block
 };
 
 namespace {
 
 constexpr std::int64_t kReadLimitNs = 50'000'000;
 constexpr int kSwapTries = 100;  // one millisecond each
+constexpr Error kMoved{Errc::TypeMismatch, 0, "the variable has another layout since"};
 
 // The node may have been killed while it held locks, or a process overwrote them.
 bool rings_work(const ShmFile& file, const std::vector<DirectoryEntry>& directory) noexcept {
@@ -94,7 +111,8 @@ Result<Store> Store::create(const std::string& node, const schema::Schema& schem
   if (previous->index) {
     BlockHeader& old = *header_of(previous->file->data());
     generation = old.generation.load(std::memory_order_acquire) + 1;
-    if (old.layout_hash == plan->layout_hash && rings_work(*previous->file, previous->index->directory)) {
+    if (previous->index->growths == 0 && old.layout_hash == plan->layout_hash &&
+        rings_work(*previous->file, previous->index->directory)) {
       static_cast<void>(remove_unfinished(block_file(node)));
       previous->own_everything();
       release_all(old, previous->index->directory);
@@ -103,7 +121,7 @@ Result<Store> Store::create(const std::string& node, const schema::Schema& schem
       return Store(std::make_unique<Impl>(std::move(*previous->file), std::move(*previous->index), Origin::Adopted));
     }
   }
-  auto file = ShmFile::create(block_file(node), plan->total_size);
+  auto file = ShmFile::create(block_file(node), plan->total_size, kGrowthRoom);
   if (!file) {
     return file.error();
   }
@@ -121,8 +139,9 @@ Result<Store> Store::create(const std::string& node, const schema::Schema& schem
   if (Status status = file->publish(); !status) {
     return status.error();
   }
-  return Store(std::make_unique<Impl>(std::move(file.value()),
-                                      BlockIndex{std::move(plan->directory), std::move(plan->schema)},
+  BlockIndex index{std::move(plan->directory), std::move(plan->schema), {}, 0, plan->layout_hash};
+  static_cast<void>(sort_by_name(index));
+  return Store(std::make_unique<Impl>(std::move(file.value()), std::move(index),
                                       previous->index ? Origin::CarriedOver : Origin::Fresh));
 }
 
@@ -173,7 +192,7 @@ const BlockHeader& Store::header() const noexcept {
   return impl_->header();
 }
 const schema::Schema& Store::schema() const noexcept {
-  return impl_->index.schema;
+  return impl_->index().schema;
 }
 bool Store::retired() const noexcept {
   return impl_->header().state.load(std::memory_order_acquire) == BlockState::Retired || lost();
@@ -181,16 +200,33 @@ bool Store::retired() const noexcept {
 bool Store::lost() const noexcept {
   return impl_->file.lost() || impl_->header().magic.load(std::memory_order_relaxed) != kMagic;
 }
+bool Store::grown() const noexcept {
+  return impl_->header().growths.load(std::memory_order_acquire) != impl_->index().growths;
+}
+bool Store::moved(const DirectoryEntry& variable) const noexcept {
+  std::atomic_thread_fence(std::memory_order_acquire);  // after all that was read
+  const std::uint64_t growth =
+      moved_of(impl_->file.data() + variable.offset, variable.kind).load(std::memory_order_acquire);
+  if (growth == 0) [[likely]] {
+    return false;
+  }
+  const BlockIndex& index = impl_->index();
+  const DirectoryEntry* const now = growth <= index.growths ? index.find(variable.name_hash) : nullptr;
+  return now == nullptr || now->offset != variable.offset;
+}
+std::uint64_t Store::layout_hash() const noexcept {
+  return impl_->index().layout_hash;
+}
 ShmFile::Named Store::named() const noexcept {
   return impl_->file.named();
 }
 
 const DirectoryEntry* Store::find(std::uint64_t name_hash) const noexcept {
-  return find_entry(impl_->index.directory, name_hash);
+  return impl_->index().find(name_hash);
 }
 
 std::span<const DirectoryEntry> Store::directory() const noexcept {
-  return impl_->index.directory;
+  return impl_->index().directory;
 }
 
 void* Store::entry(std::uint64_t name_hash, std::uint64_t type_hash) const noexcept {
@@ -220,7 +256,10 @@ Status Store::read(const DirectoryEntry& variable, std::uint32_t offset, std::sp
       return Error{Errc::Timeout, 0, "read a variable that is written without a pause"};
     }
   }
-  return lost() ? Status(Error{Errc::Dead, 0, "the store was truncated by a process with write access"}) : Status();
+  if (lost()) {
+    return Error{Errc::Dead, 0, "the store was truncated by a process with write access"};
+  }
+  return moved(variable) ? Status(kMoved) : Status();
 }
 
 Status Store::write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from) noexcept {
@@ -232,7 +271,7 @@ Status Store::write(const DirectoryEntry& variable, std::uint32_t offset, std::s
   }
   if (variable.kind == abi::Kind::Scalar) {
     write_scalar(impl_->file.data() + variable.offset, variable.value_size, offset, from);
-    return {};
+    return moved(variable) ? Status(kMoved) : Status();
   }
   abi::RingHeader& ring = impl_->ring(variable);
   auto* slot = static_cast<unsigned char*>(begin_write(ring, offset, static_cast<std::uint32_t>(from.size())));
@@ -241,7 +280,7 @@ Status Store::write(const DirectoryEntry& variable, std::uint32_t offset, std::s
   }
   indurop::detail::copy_to_shared(slot + offset, from.data(), from.size());
   commit(ring);
-  return {};
+  return moved(variable) ? Status(kMoved) : Status();
 }
 
 Status Store::force(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> value,
@@ -254,7 +293,12 @@ Status Store::force(const DirectoryEntry& variable, std::uint32_t offset, std::s
     return Error{Errc::OutOfRange, 0, "part of a variable to force"};
   }
   std::memcpy(&what.value, value.data(), value.size());
-  return vars::force(impl_->header(), what);
+  const Status forced = vars::force(impl_->header(), what);
+  if (forced && moved(variable)) {
+    static_cast<void>(vars::release(impl_->header(), variable, offset));
+    return kMoved;
+  }
+  return forced;
 }
 
 Status Store::prolong(const DirectoryEntry& variable, std::uint32_t offset, rt::MonoTime was,
@@ -274,12 +318,12 @@ Status Store::release(const DirectoryEntry& variable, std::uint32_t offset) noex
 
 void Store::release_overdue() noexcept {
   if (impl_->file.mode() == Mode::ReadWrite) {
-    vars::release_overdue(impl_->header(), impl_->index.directory);
+    vars::release_overdue(impl_->header(), impl_->index().directory);
   }
 }
 
 std::vector<Force> Store::forces() const {
-  return forces_of(impl_->header(), impl_->index.directory);
+  return forces_of(impl_->header(), impl_->index().directory);
 }
 
 void Store::release_locks_of_this_thread() noexcept {
@@ -287,7 +331,7 @@ void Store::release_locks_of_this_thread() noexcept {
     return;
   }
   const rt::ThreadId thread = rt::this_thread();
-  for (const DirectoryEntry& variable : impl_->index.directory) {
+  for (const DirectoryEntry& variable : directory()) {
     if (variable.kind == abi::Kind::Ring) {
       release_if_mine(impl_->ring(variable), thread);
     }
@@ -296,11 +340,12 @@ void Store::release_locks_of_this_thread() noexcept {
 
 void Store::reset(bool keep_retained) noexcept {
   static constexpr std::array<std::uint8_t, sizeof(std::uint64_t)> kZero{};
-  for (const DirectoryEntry& variable : impl_->index.directory) {
+  const BlockIndex& index = impl_->index();
+  for (const DirectoryEntry& variable : index.directory) {
     if (impl_->file.mode() == Mode::ReadOnly || (keep_retained && (variable.flags & kRetain) != 0)) {
       continue;
     }
-    const auto& initial = impl_->index.schema.variables[variable.schema_index].initial;
+    const auto& initial = index.schema.variables[variable.schema_index].initial;
     if (variable.kind == abi::Kind::Scalar) {
       write_scalar(impl_->file.data() + variable.offset, variable.value_size, 0,
                    initial.empty() ? std::span(kZero).first(variable.value_size) : std::span(initial));
@@ -320,6 +365,28 @@ rt::MonoTime Store::now() const noexcept {
 
 std::atomic<std::int64_t>& Store::virtual_time() noexcept {
   return impl_->header().virtual_ns;
+}
+
+Status Store::reserve(std::span<const schema::Variable> variables) {
+  return impl_->growth->reserve(impl_->index(), variables);
+}
+void* Store::place(std::uint64_t name_hash, std::uint64_t type_hash) const {
+  return impl_->growth != nullptr ? impl_->growth->place(name_hash, type_hash) : entry(name_hash, type_hash);
+}
+Growth& Store::growth() noexcept {
+  return *impl_->growth;
+}
+Result<NextCatalog> Store::prepare(std::span<const schema::Variable> variables) {
+  return impl_->growth->prepare(impl_->index(), variables);
+}
+void Store::follow(NextCatalog next) {
+  impl_->keep(std::move(next.index));
+}
+void Store::announce(NextCatalog next) {
+  for (const NextCatalog::Word& word : next.words) {
+    word.to->store(word.value, std::memory_order_release);
+  }
+  follow(std::move(next));
 }
 
 void Store::beat(rt::MonoTime now) noexcept {

@@ -16,6 +16,7 @@
 
 #include "core/schema/schema.h"
 #include "store/vars/forces.h"
+#include "store/vars/growth.h"
 #include "store/vars/layout.h"
 #include "store/vars/shm_file.h"
 
@@ -53,8 +54,17 @@ class Store {
 
   [[nodiscard]] Origin origin() const noexcept;
   [[nodiscard]] const BlockHeader& header() const noexcept;
-  [[nodiscard]] const schema::Schema& schema() const noexcept;  // parsed from the block
+  // Parsed from the block. In the node, whose store can grow, this and all that is found in it is valid for eight more
+  // growths, and for ever if it is from before the first.
+  [[nodiscard]] const schema::Schema& schema() const noexcept;
   [[nodiscard]] bool retired() const noexcept;  // a newer block has replaced it, or it was truncated: attach again
+  // Returns true if the node has other variables since: attach again to see them. Those that were found stay usable,
+  // but those whose type has changed: see read(). Real-time safe.
+  [[nodiscard]] bool grown() const noexcept;
+  // Returns true if the type of a variable has changed since it was found: its value is elsewhere. Real-time safe.
+  [[nodiscard]] bool moved(const DirectoryEntry& variable) const noexcept;
+  // Identifies the variables that it has, with their types. The header has that of the variables at the start.
+  [[nodiscard]] std::uint64_t layout_hash() const noexcept;
   // Returns true if a process that may write the block truncated or emptied it: values are missing. Real-time safe.
   [[nodiscard]] bool lost() const noexcept;
   [[nodiscard]] ShmFile::Named named() const noexcept;  // status of its file name; not real-time safe
@@ -66,15 +76,16 @@ class Store {
 
   // Reads one consistent version of a variable's bytes. If writers keep overtaking the copy, a read-write store makes
   // them wait by taking the lock; a read-only one cannot, and retries for 50 ms, yielding the processor. Errors:
-  // OutOfRange, Dead (lost()), Timeout (read-only: the variable is written without a pause).
+  // OutOfRange, Dead (lost()), Timeout (read-only: the variable is written without a pause), TypeMismatch (its type has
+  // changed since it was found: attach again).
   Status read(const DirectoryEntry& variable, std::uint32_t offset, std::span<std::uint8_t> to) const noexcept;
   // Writes the whole value or a part of it in one commit. Errors: OutOfRange, Busy (lock not free in 5 ms: its holder
-  // is stopped), PermissionDenied (read-only).
+  // is stopped), PermissionDenied (read-only), TypeMismatch (as of read(); whether the value was carried is open).
   Status write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from) noexcept;
 
   // Holds a part of a variable, of 1, 2, 4 or 8 bytes, at a value until a time (or kForever) against all writers;
   // create() ends all forces. Not real-time safe. Errors: OutOfRange, InvalidArgument (size), NoSpace (kMaxForces are
-  // held), Busy, PermissionDenied (read-only).
+  // held), Busy, PermissionDenied (read-only), TypeMismatch (as of read(); it is not forced).
   Status force(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> value,
                rt::MonoTime until) noexcept;
   // Sets a later end of a force whose end is still `was`. Errors: NotFound (another user has re-forced or released it
@@ -98,6 +109,19 @@ class Store {
   [[nodiscard]] rt::MonoTime now() const noexcept;
   // The word in which a simulating node stores its time; create() sets it to 0, which is real time.
   [[nodiscard]] std::atomic<std::int64_t>& virtual_time() noexcept;
+
+  // For the node: what its store grows by. Normal threads.
+  // Makes places for variables; see Growth::reserve().
+  Status reserve(std::span<const schema::Variable> variables);
+  // The place of a variable of this name and type, whether the store has the variable yet or not; null: there is none.
+  [[nodiscard]] void* place(std::uint64_t name_hash, std::uint64_t type_hash) const;
+  [[nodiscard]] Growth& growth() noexcept;
+  // See Growth::prepare().
+  Result<NextCatalog> prepare(std::span<const schema::Variable> variables);
+  // The catalog's words were stored: this object has the variables, too. Of one thread; others may use the store.
+  void follow(NextCatalog next);
+  // Stores the words, and follows.
+  void announce(NextCatalog next);
 
   void beat(rt::MonoTime now) noexcept;  // the node's heartbeat; real-time safe
   void prefault() const noexcept;        // makes all pages present now; not real-time safe

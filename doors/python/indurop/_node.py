@@ -291,6 +291,7 @@ class Node(ByName[Variable]):
         return True
 
     def __iter__(self) -> Iterator[str]:
+        self.refresh()
         return (text(lib.irp_name(self._handle, i)) for i in range(len(self)))
 
     def __len__(self) -> int:

@@ -124,6 +124,9 @@ bool report_missing(Context& context, const Recorded& node, const recorder::Reco
     context.out.error(
         fmt::format("{} is too large for the tape and was not recorded; start the node with a larger --tape", name));
   }
+  for (const std::string& name : recorder.appeared()) {
+    context.out.note(fmt::format("{} appeared while the node runs and is recorded after its next start", name));
+  }
   for (const auto& [module, runs] : recorder.counts().lost) {
     context.out.error(
         fmt::format("{} runs of {} are not in the recording: they were overwritten before they were read; "

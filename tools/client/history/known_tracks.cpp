@@ -22,7 +22,7 @@ std::int64_t track_period(const RunView& run, std::uint32_t module) {
 
 std::vector<std::size_t> known_tracks(const tape::Follower& follower, const RunView& run, std::uint32_t variable) {
   std::vector<std::size_t> tracks;
-  if (follower.variables()[variable].taped == 0) {
+  if (variable >= follower.variables().size() || follower.variables()[variable].taped == 0) {
     return tracks;
   }
   std::optional<std::size_t> reader;

@@ -16,12 +16,8 @@ constexpr std::int64_t kLeastPatienceNs = 2'000'000;
 
 // Returns true if the tape is that of the store, and both are those of the run.
 bool belong_together(const tape::Follower& follower, const vars::Store& store, const RunView& run) {
-  return follower.header().layout_hash == store.header().layout_hash &&
-         follower.header().node_start_time == run.block().node_start_time &&
-         follower.header().node_pid == run.block().node_pid &&
-         std::ranges::equal(follower.variables(), store.directory(), [](const auto& taped, const auto& entry) {
-           return taped.name_hash == entry.name_hash && taped.size == entry.value_size;
-         });
+  return follower.header().node_start_time == run.block().node_start_time &&
+         follower.header().node_pid == run.block().node_pid && follower.is_of(store);
 }
 
 }  // namespace

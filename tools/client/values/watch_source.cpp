@@ -60,7 +60,7 @@ void WatchSource::attach_again(Access& access) {
 }
 
 void WatchSource::sample(Access& access, std::size_t first, std::size_t count) {
-  if (store_->retired() || access.values->generation() != generation_) {
+  if (store_->retired() || store_->grown() || access.values->generation() != generation_) {
     attach_again(access);
   } else {
     absence_ = access.values->absence(&*store_);

@@ -17,7 +17,7 @@ std::uint64_t next_attachment() {
 }  // namespace
 
 std::string Board::layout() const {
-  return store_ ? fmt::format("{:016x}", store_->header().layout_hash) : std::string();
+  return store_ ? fmt::format("{:016x}", store_->layout_hash()) : std::string();
 }
 
 void Board::attach(vars::Store store, std::uint64_t generation) {

@@ -14,7 +14,7 @@
 namespace indurop::serve {
 
 void LocalBoard::refresh() {
-  if (store() == nullptr || store()->retired() || source_.generation() != generation()) {
+  if (store() == nullptr || store()->retired() || store()->grown() || source_.generation() != generation()) {
     const std::uint64_t current = source_.generation();
     auto fresh = source_.attach();
     if (fresh.ok()) {

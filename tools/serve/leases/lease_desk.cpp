@@ -7,8 +7,7 @@ namespace indurop::serve {
 
 // Finds the variables again in a store that was reopened. Returns false if the board has changed meanwhile.
 bool LeaseDesk::Held::bind(const vars::Store& store) {
-  const vars::BlockHeader& header = store.header();
-  if (header.layout_hash != layout_hash || header.generation.load() != generation) {
+  if (store.layout_hash() != layout_hash || store.header().generation.load() != generation) {
     return false;
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -23,7 +22,7 @@ std::string LeaseDesk::take(const std::string& board, const operate::Who& who, c
   held.board = board;
   held.who = who;
   held.what = what;
-  held.layout_hash = store.header().layout_hash;
+  held.layout_hash = store.layout_hash();
   held.generation = store.header().generation.load();
   held.lease = std::move(lease);
   for (const vars::HeldValue& value : held.lease.values) {

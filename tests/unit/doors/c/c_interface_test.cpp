@@ -99,6 +99,12 @@ class CInterface : public ::testing::Test {
     EXPECT_EQ(irp_find(handle_, name, &id), IRP_OK) << irp_error();
     return id;
   }
+  void grow(const std::vector<schema::Variable>& variables) {
+    ASSERT_TRUE(store_->reserve(variables).ok());
+    auto next = store_->prepare(variables);
+    ASSERT_TRUE(next.ok());
+    store_->announce(std::move(next).value());
+  }
   template <class T>
   T read(const char* name) {
     T value{};
@@ -232,6 +238,36 @@ TEST_F(CInterface, Notices_other_variables) {
   std::int32_t old_type = 0;
   EXPECT_EQ(irp_read(handle_, count, &old_type, sizeof old_type), IRP_NOT_FOUND) << "it has another type now";
   EXPECT_EQ(read<std::int64_t>("count"), 0);
+}
+
+TEST_F(CInterface, Follows_a_store_that_grows) {
+  const std::uint32_t gain = id_of("gain");
+  const std::uint32_t count = id_of("count");
+  ASSERT_EQ(write("gain", 2.5), IRP_OK);
+  ASSERT_EQ(write("count", 7), IRP_OK);
+  grow({variable("cell::another", type_of(schema::Base::Int32))});
+  double value = 0;
+  EXPECT_EQ(irp_read(handle_, gain, &value, sizeof value), IRP_OK);
+  EXPECT_NE(irp_running(handle_), IRP_CHANGED);
+  std::uint32_t another = 0;
+  EXPECT_EQ(irp_find(handle_, "another", &another), IRP_CHANGED);
+  ASSERT_EQ(irp_refresh(handle_), IRP_OK);
+  EXPECT_EQ(read<std::int32_t>("another"), 0);
+  EXPECT_EQ(irp_count(handle_), 4U);
+  EXPECT_EQ(irp_read(handle_, gain, &value, sizeof value), IRP_OK);
+  EXPECT_EQ(value, 2.5);
+  grow({variable("cell::count", type_of(schema::Base::Int64))});
+  std::int32_t number = 0;
+  EXPECT_EQ(irp_read(handle_, count, &number, sizeof number), IRP_CHANGED) << "never what another layout has there";
+  const std::array<void*, 2> to{&value, &number};
+  const std::array<std::uint32_t, 2> ids{gain, count};
+  const std::array<std::size_t, 2> sizes{sizeof value, sizeof number};
+  EXPECT_EQ(irp_read_together(handle_, ids.data(), 2, to.data(), sizes.data()), IRP_CHANGED);
+  EXPECT_EQ(irp_read(handle_, gain, &value, sizeof value), IRP_OK);
+  ASSERT_EQ(irp_refresh(handle_), IRP_OK);
+  EXPECT_EQ(irp_read(handle_, count, &number, sizeof number), IRP_NOT_FOUND) << "it has another type now";
+  EXPECT_EQ(read<std::int64_t>("count"), 0);
+  EXPECT_EQ(read<std::int32_t>("count_before"), 7);
 }
 
 // Two variables that a writer changes one after the other: a snapshot has both of one round, or the second one round
