@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scheduler/exchange.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -18,8 +19,11 @@ bool Exchange::is_still_in(std::uint64_t gap) const noexcept {
 
 // What was copied while a run began is part of another gap, whatever order it is seen in.
 bool Exchange::is_due(std::uint64_t tick) const noexcept {
-  return tick >= settings_.earliest_tick && (!settings_.offered || offered_gap_.load(std::memory_order_acquire) ==
-                                                                       entries_.load(std::memory_order_relaxed) + 1);
+  return tick >= settings_.earliest_tick &&
+         (!settings_.offered ||
+          offered_gap_.load(std::memory_order_acquire) == entries_.load(std::memory_order_relaxed) + 1) &&
+         std::all_of(settings_.zeros.begin(), settings_.zeros.end(),
+                     [](const auto* word) { return word->load(std::memory_order_acquire) == 0; });
 }
 
 bool Exchange::leave_new(Step to, Reason reason) noexcept {
@@ -62,6 +66,9 @@ bool Exchange::before_run(Task& task, std::uint64_t tick, Kernel& kernel) noexce
       std::memcpy(pair.new_place, pair.old_place, pair.bytes);
     }
     exchange(task, tick);
+    for (const Word& word : settings_.words) {
+      word.to->store(word.value, std::memory_order_release);
+    }
     copying_ns_.store((kernel.now() - begin).count(), std::memory_order_relaxed);
     step_.store(Step::Done, std::memory_order_release);
   } else if (step == Step::Done && settings_.can_return) {

@@ -32,6 +32,11 @@ class Exchange {
     std::byte* new_place = nullptr;
     std::size_t bytes = 0;
   };
+  // A word that is stored when the new version follows.
+  struct Word {
+    std::atomic<std::uint64_t>* to = nullptr;
+    std::uint64_t value = 0;
+  };
   enum class Step : std::uint32_t {
     Waiting,    // the old version runs until the exchange is due
     Done,       // the new version runs, and the old one is ready to
@@ -47,6 +52,8 @@ class Exchange {
     bool offered = false;             // a normal thread copies instead: the exchange waits for offer()
     bool can_return = true;           // `pairs` have all it needs to run the old version again
     std::uint64_t earliest_tick = 0;  // the exchange is not before this tick
+    std::vector<Word> words;          // stored in this order, before the first run of the new version
+    std::vector<const std::atomic<std::int64_t>*> zeros;  // words that must be 0 for that
   };
 
   explicit Exchange(Settings settings) : settings_(std::move(settings)) {}

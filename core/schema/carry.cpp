@@ -87,11 +87,14 @@ bool same_units(const Type& a, const Type& b) {
 
 class Carrier {
  public:
+  enum class Lines { All, OfValues };
+  explicit Carrier(Lines lines) noexcept : wanted_(lines) {}
+
   void value(const std::string& name, const Type& from, Bytes old, const Type& to, Room now) {
     if (canonical(from) == canonical(to) && same_units(from, to)) {
       std::copy(old.begin(), old.end(), now.begin());
     } else if (from.dims.size() != to.dims.size()) {
-      lost(name, fmt::format("was {}, is {}", display_name(from), display_name(to)));
+      declared(name, fmt::format("was {}, is {}", display_name(from), display_name(to)));
     } else if (!from.dims.empty()) {
       array(name, from, old, to, now);
     } else {
@@ -99,6 +102,12 @@ class Carrier {
     }
   }
 
+  // What follows from the declarations.
+  void declared(const std::string& name, const std::string& why) {
+    if (wanted_ == Lines::All) {
+      lost(name, why);
+    }
+  }
   void lost(const std::string& name, const std::string& why) {
     line(fmt::format("{}: {}, starts with its initial value", name, why));
   }
@@ -126,7 +135,7 @@ class Carrier {
   void array(const std::string& name, const Type& from, Bytes old, const Type& to, Room now) {
     const std::uint32_t before = from.dims.front();
     const std::uint32_t after = to.dims.front();
-    if (before != after) {
+    if (before != after && wanted_ == Lines::All) {
       line(fmt::format("{}: had {} elements, has {}; {} are kept from the first on", name, before, after,
                        std::min(before, after)));
     }
@@ -142,7 +151,7 @@ class Carrier {
     if (is_number(from.base) && is_number(to.base)) {
       number(name, from, old, to, now);
     } else if (from.base != to.base) {
-      lost(name, fmt::format("was {}, is {}", display_name(from), display_name(to)));
+      declared(name, fmt::format("was {}, is {}", display_name(from), display_name(to)));
     } else if (from.base == Base::Text) {
       text(name, old, now);
     } else if (from.base == Base::Enum) {
@@ -204,7 +213,9 @@ class Carrier {
       const auto is =
           std::find_if(to.fields.begin(), to.fields.end(), [&](const Field& one) { return one.name == was.name; });
       if (is == to.fields.end()) {
-        line(inner + ": is no longer declared");
+        if (wanted_ == Lines::All) {
+          line(inner + ": is no longer declared");
+        }
       } else if (was.unit != is->unit) {
         unit(inner, was.unit, is->unit);
       } else {
@@ -216,18 +227,17 @@ class Carrier {
 
  public:
   void unit(const std::string& name, const std::string& was, const std::string& is) {
-    lost(name, fmt::format("its unit was '{}', is '{}'", was, is));
+    declared(name, fmt::format("its unit was '{}', is '{}'", was, is));
   }
 
  private:
+  Lines wanted_;
   std::vector<std::string> lines_;
   std::size_t count_ = 0;
 };
 
-}  // namespace
-
-std::vector<std::string> carry_value(const std::string& name, const Kept& from, Bytes old, const Kept& to, Room now) {
-  Carrier carrier;
+std::vector<std::string> carried_by(Carrier carrier, const std::string& name, const Kept& from, Bytes old,
+                                    const Kept& to, Room now) {
   if (old.size() != from.type.size() || now.size() != to.type.size()) {
     carrier.lost(name, "its kept value is damaged");
   } else if (from.unit != to.unit) {
@@ -236,6 +246,17 @@ std::vector<std::string> carry_value(const std::string& name, const Kept& from, 
     carrier.value(name, from.type, old, to.type, now);
   }
   return carrier.take(name);
+}
+
+}  // namespace
+
+std::vector<std::string> carry_value(const std::string& name, const Kept& from, Bytes old, const Kept& to, Room now) {
+  return carried_by(Carrier(Carrier::Lines::All), name, from, old, to, now);
+}
+
+std::vector<std::string> carry_what_fits(const std::string& name, const Kept& from, Bytes old, const Kept& to,
+                                         Room now) {
+  return carried_by(Carrier(Carrier::Lines::OfValues), name, from, old, to, now);
 }
 
 }  // namespace indurop::schema

@@ -23,5 +23,9 @@ struct Kept {
 // prefixed with `name`; at most a few. `old` and `now` have the sizes of their types.
 std::vector<std::string> carry_value(const std::string& name, const Kept& from, std::span<const std::uint8_t> old,
                                      const Kept& to, std::span<std::uint8_t> now);
+// The same, but returns only lines for what depends on the value: a number, text or enumerator that does not fit. The
+// others follow from the declarations; see convert().
+std::vector<std::string> carry_what_fits(const std::string& name, const Kept& from, std::span<const std::uint8_t> old,
+                                         const Kept& to, std::span<std::uint8_t> now);
 
 }  // namespace indurop::schema

@@ -54,6 +54,7 @@ std::string why_of(const operate::ReloadReport& report) {
   };
   add("added", plan.added);
   add("removed", plan.removed);
+  add("new", plan.appeared);
   add("initial value", plan.changed);
   return text;
 }

@@ -27,7 +27,7 @@ class Arrivals {
     scheduler::RunBlock& run;
     std::vector<ModuleLibrary>& libraries;
     scheduler::Engine& engine;
-    const vars::Store& store;
+    vars::Store& store;
     FailSafe& failsafe;
     Exchanges& exchanges;
     Phases& phases;

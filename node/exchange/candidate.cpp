@@ -15,7 +15,8 @@ namespace {
 
 class CandidateCheck {
  public:
-  CandidateCheck(const CandidateTask& task, std::vector<std::string>& errors) : task_(task), errors_(errors) {}
+  CandidateCheck(const CandidateTask& task, Candidate& candidate)
+      : task_(task), candidate_(candidate), errors_(candidate.errors) {}
 
   // Returns true if what is wrong is wrong for this run of the node only.
   bool run() {
@@ -38,6 +39,10 @@ class CandidateCheck {
     if (!errors_.empty()) {
       return false;
     }
+    candidate_.library.set_uses(uses_of(result.facts.front()));
+    if (task_.may_grow) {
+      find_changes(result.facts.front());
+    }
     check_variables(result.facts.front());
     check_imports(result.facts.front().file.imports);
     return !errors_.empty();
@@ -48,6 +53,17 @@ class CandidateCheck {
     const config::Module& module = task_.config.modules[task_.module];
     errors_.push_back(base::to_string({base::Diagnostic::Severity::Error, task_.config.file.string(),
                                        module.places.file, fmt::format("{}: {}", task_.file.string(), text)}));
+  }
+
+  // As at the start, the store gets all variables of the .glb files, used or not.
+  void find_changes(const config::ModuleFacts& facts) {
+    candidate_.variables = VariableChange::of(task_.store, candidate_.library.uses(), facts.schema->variables);
+    if (!task_.others.empty()) {
+      for (const std::string& text :
+           objections(candidate_.variables, {task_.store, task_.config, task_.others, task_.index})) {
+        error(text + "; restart the node with the new version");
+      }
+    }
   }
 
   void check_variables(const config::ModuleFacts& facts) {
@@ -63,15 +79,21 @@ class CandidateCheck {
   void check_variable(const schema::Variable& variable, const schema::Access& access) {
     const vars::DirectoryEntry* entry = task_.store.find(variable.name_hash());
     if (entry == nullptr) {
-      return error(
-          fmt::format("variable {} is not one of this node; restart the node with the new version", variable.name));
+      return task_.may_grow ? void()
+                            : error(fmt::format("variable {} is not one of this node; restart the node with the new "
+                                                "version",
+                                                variable.name));
     }
     const schema::Variable& known = task_.store.schema().variables[entry->schema_index];
-    if (known.type_hash != variable.type_hash || known.kind != variable.kind) {
+    const bool changes = task_.may_grow && !task_.others.empty();  // then it was checked before
+    if ((known.type_hash != variable.type_hash || known.kind != variable.kind) && !changes) {
       return error(
           fmt::format("variable {} has another layout in this node: {}; build against the same .glb, or restart "
                       "the node with the new version",
                       variable.name, schema::first_difference(variable.type, known.type)));
+    }
+    if (entry->offset >= task_.store.header().total_size) {
+      return;  // it appeared while the node runs
     }
     const auto allowed = task_.allowed.find(variable.name_hash());
     const schema::Access then = allowed != task_.allowed.end() ? allowed->second : schema::Access{};
@@ -98,15 +120,42 @@ class CandidateCheck {
   }
 
   const CandidateTask& task_;
+  Candidate& candidate_;
   std::vector<std::string>& errors_;
 };
 
+// The variables must have a place before the file is loaded, which binds them.
+void make_places(const CandidateTask& task, Candidate& candidate) {
+  const std::vector<schema::Variable> places = candidate.variables.places();
+  if (const Status made = task.store.reserve(places); !made) {
+    candidate.errors.push_back(
+        fmt::format("{}: error: there is no place for its {} new variables: {}; restart the node "
+                    "with the new version",
+                    task.file.string(), places.size(), made.error().where));
+    candidate.needs_restart = true;
+  }
+}
+
 }  // namespace
+
+ModuleLibrary::Uses uses_of(const config::ModuleFacts& facts) {
+  ModuleLibrary::Uses uses;
+  for (const schema::Variable& variable : facts.schema->variables) {
+    const auto access = facts.file.access.find(variable.name_hash());
+    if (access != facts.file.access.end() && (access->second.reads || access->second.writes)) {
+      uses.emplace(variable.name_hash(), variable.type_hash);
+    }
+  }
+  return uses;
+}
 
 Candidate make_candidate(const CandidateTask& task) {
   Candidate candidate;
   const auto before = keys::digest_of_file(task.file);
-  candidate.needs_restart = CandidateCheck(task, candidate.errors).run();
+  candidate.needs_restart = CandidateCheck(task, candidate).run();
+  if (candidate.errors.empty()) {
+    make_places(task, candidate);
+  }
   if (!candidate.errors.empty()) {
     return candidate;
   }
@@ -130,6 +179,10 @@ Candidate make_candidate(const CandidateTask& task) {
     candidate.library.prefault();
     candidate.carry = plan_carry(task.running.memory(), candidate.library.memory(),
                                  most_in_tick(task.config.modules[task.module].period.count()));
+    candidate.carry.loses |= candidate.variables.list(task.store, candidate.carry.plan);
+    if (candidate.variables.changes_types()) {
+      candidate.carry.carry_between_runs();
+    }
   }
   return candidate;
 }

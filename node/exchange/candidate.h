@@ -7,37 +7,46 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "config/check/check.h"
 #include "config/model/config.h"
 #include "core/schema/elf.h"
 #include "node/exchange/carry.h"
+#include "node/exchange/variable_change.h"
 #include "node/modules/module_library.h"
 #include "store/vars/store.h"
 
 namespace indurop::node {
 
-// Which shared variables a module may read and write: those that it used when the node started, since order, tape and
-// messages between boards were made for them.
+// Which of the shared variables that the node started with a module may read and write: those that it used then, since
+// order, tape and messages between boards were made for them. Those that appeared since may be used by all.
 using AllowedAccess = std::map<std::uint64_t, schema::Access>;
 
 struct CandidateTask {
   const config::Config& config;
   std::uint32_t module = 0;
   std::filesystem::path file;
-  const vars::Store& store;
+  vars::Store& store;
   const AllowedAccess& allowed;
   const ModuleLibrary& running;  // empty: there is none, it is a module that is added
   std::uint32_t index = module;  // in the run block
+  bool may_grow = false;         // it may bring variables that the store does not have
+  // Of all modules, if it may also change types of variables that no other one uses; empty: it may not.
+  std::span<const ModuleLibrary> others = {};
 };
 
 struct Candidate {
   ModuleLibrary library;
   Carry carry;
+  VariableChange variables;         // that it brings; the store has places for them
   std::vector<std::string> errors;  // all that are found; empty: it may run
   bool needs_restart = false;       // a node that is started with it has none of them
 };
+
+ModuleLibrary::Uses uses_of(const config::ModuleFacts& facts);
 
 // Checks and loads it, next to the running version. Static constructors of the file run.
 Candidate make_candidate(const CandidateTask& task);

@@ -24,6 +24,10 @@ struct Carry {
   std::vector<scheduler::Exchange::Pair> pairs;  // adjacent variables are one pair
   bool between_runs = false;                     // a normal thread copies, by ModuleMemory
   bool loses = false;                            // values are lost that the new version needs
+  void carry_between_runs() {
+    between_runs = true;
+    pairs.clear();
+  }
 };
 
 // Compares what both keep. The pairs have the addresses of both. `most`: what may be copied in a tick.

@@ -24,6 +24,7 @@ Exchanges::Exchanges(const Parts& parts, const config::CheckResult& check, const
   for (std::uint32_t i = 0; i < context_.allowed.size(); ++i) {
     if (i < check.facts.size()) {
       context_.allowed[i] = check.facts[i].file.access;
+      context_.parts.libraries[i].set_uses(uses_of(check.facts[i]));
     }
     begin_version(i);
   }

@@ -40,7 +40,8 @@ Result<GuardCondition, base::Problem> GuardCondition::parse(std::string_view tex
     guard.text_ = text;
     guard.type_ = place->type;
     guard.offset_ = place->offset;
-    guard.entry_ = store.find(place->variable->name_hash());
+    const vars::DirectoryEntry* const entry = store.find(place->variable->name_hash());
+    guard.entry_ = entry != nullptr ? *entry : vars::DirectoryEntry{};
     guard.condition_.comparison = comparison;
     std::vector<std::uint8_t> limit(guard.type_.size());
     const auto parsed = schema::parse_value(guard.type_, base::trimmed(text.substr(at + symbol.size())), limit);
@@ -48,7 +49,7 @@ Result<GuardCondition, base::Problem> GuardCondition::parse(std::string_view tex
       return wrong(text, parsed.error().message);
     }
     const auto number = schema::as_number<double>(guard.type_.base, limit.data());
-    if (!number || !guard.type_.dims.empty() || guard.entry_ == nullptr) {
+    if (!number || !guard.type_.dims.empty() || entry == nullptr) {
       return wrong(text, "this is no single number");
     }
     guard.condition_.limit = *number;
@@ -59,7 +60,7 @@ Result<GuardCondition, base::Problem> GuardCondition::parse(std::string_view tex
 
 bool GuardCondition::holds(const vars::Store& store) const {
   std::vector<std::uint8_t> now(type_.size());
-  if (!store.read(*entry_, offset_, now).ok()) {
+  if (!store.read(entry_, offset_, now).ok()) {
     return false;
   }
   const auto number = schema::as_number<double>(type_.base, now.data());

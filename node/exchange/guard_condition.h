@@ -20,10 +20,12 @@ class GuardCondition {
   static Result<GuardCondition, base::Problem> parse(std::string_view text, const vars::Store& store);
   [[nodiscard]] bool holds(const vars::Store& store) const;
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
+  // Hash of its name.
+  [[nodiscard]] std::uint64_t variable() const noexcept { return entry_.name_hash; }
 
  private:
   std::string text_;
-  const vars::DirectoryEntry* entry_ = nullptr;
+  vars::DirectoryEntry entry_{};
   std::uint32_t offset_ = 0;
   schema::Type type_;
   schema::Alarm condition_;

@@ -40,7 +40,8 @@ void ModuleExchange::begin(const operate::ReloadRequest& request) {
   preparation_ = std::make_unique<CandidateThread>(
       CandidateTask{context_.parts.config, module_,
                     request_.file.empty() ? context_.files[module_] : std::filesystem::path(request_.file),
-                    context_.parts.store, context_.allowed[module_], running()});
+                    context_.parts.store, context_.allowed[module_], running(), module_, context_.parts.may_grow,
+                    held_ || context_.parts.keeps_types ? std::span<const ModuleLibrary>() : context_.parts.libraries});
 }
 
 void ModuleExchange::begin_back(scheduler::Exchange::Reason reason) {
@@ -60,6 +61,18 @@ void ModuleExchange::begin_back(scheduler::Exchange::Reason reason) {
   report_.plan = carry_.plan;
   report_.from = running().digest();
   report_.to = other_.digest();
+  variables_ = VariableChange::back_to(context_.parts.store, other_.uses());
+  (void)variables_.list(context_.parts.store, report_.plan);
+  if (variables_.changes_types()) {
+    carry_.carry_between_runs();
+  }
+  const auto against =
+      objections(variables_, {context_.parts.store, context_.parts.config, context_.parts.libraries, module_});
+  if (!against.empty()) {
+    context_.parts.console.warning("module {}: the previous version cannot run: {}", record().name, against.front());
+    answer(CommandResult::Refused, against.front());
+    return abort(against.front());
+  }
   watch(next_macro_period(context_));
 }
 
@@ -125,6 +138,7 @@ void ModuleExchange::prepared() {
   }
   other_ = std::move(candidate.library);
   carry_ = std::move(candidate.carry);
+  variables_ = std::move(candidate.variables);
   if (failure_.empty()) {
     start_other();
   } else {
@@ -143,6 +157,8 @@ bool ModuleExchange::is_wanted(Candidate& candidate) {
                                                report_.errors.size() == 1 ? "" : "s"));
   } else if (report_.from == report_.to) {
     answer(CommandResult::Unchanged, "this version runs already");
+  } else if (guard_ && candidate.variables.changes_type_of(guard_->variable())) {
+    answer(CommandResult::Refused, "the type of the variable of --guard changes; name another one");
   } else if (candidate.carry.loses && !request_.lossy) {
     answer(CommandResult::Refused, "values would be lost; --lossy exchanges it nevertheless");
   } else if (request_.dry_run) {
@@ -178,6 +194,8 @@ void ModuleExchange::started() {
   }
   if (!failure_.empty()) {
     abort(failure_);
+  } else if (!variables_.let_appear(context_.parts.store)) {
+    abort("another version has brought other variables meanwhile; repeat the command");
   } else if (record().state.load() == ModuleState::Running) {
     if (held_) {
       step_ = Step::Ready;
@@ -196,6 +214,9 @@ void ModuleExchange::replace_closed() {
   const bool faulted = record().state.load() == ModuleState::Faulted;
   if (!context_.parts.engine.at_rest(module_)) {
     return abort("a run of it is still being ended; repeat the command");
+  }
+  if (const std::string why = variables_.change_at_once(context_.parts.store, request_.lossy); !why.empty()) {
+    return abort(why);
   }
   context_.parts.engine.replace_closed(module_, {other_.functions().run, other_.functions().condition});
   std::swap(running(), other_);

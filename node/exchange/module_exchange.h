@@ -33,7 +33,9 @@ struct ExchangeParts {
   scheduler::Engine& engine;
   vars::Store& store;
   Console& console;
-  bool simulated = false;  // virtual time does not pass while a version is prepared
+  bool simulated = false;    // virtual time does not pass while a version is prepared
+  bool may_grow = false;     // versions may bring variables that the store does not have
+  bool keeps_types = false;  // others know the types of variables: topics
 };
 
 class ScheduleChange;
@@ -134,6 +136,7 @@ class ModuleExchange {
   rt::MonoTime deadline_{};  // of this step, in the node's time
   ModuleLibrary other_;      // the version that does not run
   Carry carry_;
+  VariableChange variables_;      // that the version which does not run brings
   std::vector<std::byte> saved_;  // what the running version kept in a gap, if a normal thread copies
   std::size_t saved_bytes_ = 0;
   std::unique_ptr<scheduler::Exchange> exchange_;

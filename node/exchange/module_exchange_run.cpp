@@ -62,6 +62,9 @@ void ModuleExchange::watch(std::uint64_t tick) {
   settings.offered = carry_.between_runs;
   settings.can_return = !carry_.between_runs && !back_;
   settings.earliest_tick = tick;
+  if (!variables_.prepare(context_.parts.store, settings)) {
+    return abort("there is no memory for the variables whose types change");
+  }
   saved_.resize(carry_.between_runs ? running().memory().most() : 0);
   exchange_ = std::make_unique<Exchange>(std::move(settings));
   skipped_before_ = record().skipped.load();
@@ -97,18 +100,26 @@ void ModuleExchange::offer_copy() {
     if (!gap || exchange_->is_offered(*gap)) {
       continue;
     }
-    const std::size_t bytes = running().memory().save(saved_);
+    const bool keeps = report_.plan.with_state;
+    const std::size_t bytes = keeps ? running().memory().save(saved_) : 0;
     const auto* const begin = reinterpret_cast<const std::uint8_t*>(saved_.data());
-    if (bytes > 0 && exchange_->is_still_in(*gap)) {
-      (void)other_.memory().restore(running().memory().form(), {begin, bytes});
-      saved_bytes_ = bytes;
-      exchange_->offer(*gap);
-      return;
+    if ((keeps && bytes == 0) || !exchange_->is_still_in(*gap)) {
+      continue;
     }
+    if (keeps) {
+      (void)other_.memory().restore(running().memory().form(), {begin, bytes});
+    }
+    if (const std::string why = variables_.carry(context_.parts.store, back_ || request_.lossy); !why.empty()) {
+      return abort(why);
+    }
+    saved_bytes_ = bytes;
+    exchange_->offer(*gap);
+    return;
   }
 }
 
 void ModuleExchange::note_exchanged() {
+  variables_.follow(context_.parts.store);
   std::swap(running(), other_);
   exchanged_ = true;
   report_.tick = exchange_->first_tick();
@@ -139,7 +150,7 @@ void ModuleExchange::check_health() {
     note_returned();
   } else if (step != Exchange::Step::Done) {
     return;  // the next run is one of the previous version
-  } else if (record().state.load() == ModuleState::Faulted && saved_bytes_ > 0) {
+  } else if (record().state.load() == ModuleState::Faulted && (saved_bytes_ > 0 || variables_.changes_types())) {
     return_closed();
   } else if (record().state.load() != ModuleState::Running) {
     leave();  // stopped by command
@@ -161,7 +172,7 @@ void ModuleExchange::check_health() {
 
 // What a normal thread copies is not there at the moment of a fault: the newest copy is.
 void ModuleExchange::save_for_return() {
-  const auto gap = carry_.between_runs ? exchange_->gap() : std::nullopt;
+  const auto gap = carry_.between_runs && report_.plan.with_state ? exchange_->gap() : std::nullopt;
   std::vector<std::byte> now(gap ? running().memory().most() : 0);
   const std::size_t bytes = gap ? running().memory().save(now) : 0;
   if (bytes > 0 && exchange_->is_still_in(*gap)) {
@@ -206,7 +217,15 @@ void ModuleExchange::return_closed() {
     return;
   }
   const auto* const begin = reinterpret_cast<const std::uint8_t*>(saved_.data());
-  (void)other_.memory().restore(running().memory().form(), {begin, saved_bytes_});
+  if (saved_bytes_ > 0) {
+    (void)other_.memory().restore(running().memory().form(), {begin, saved_bytes_});
+  }
+  if (const std::string why =
+          VariableChange::back_to(context_.parts.store, other_.uses()).change_at_once(context_.parts.store, true);
+      !why.empty()) {
+    context_.parts.console.warning("module {}: {}", record().name, why);
+    return leave();
+  }
   context_.parts.engine.replace_closed(module_, {other_.functions().run, other_.functions().condition});
   std::swap(running(), other_);
   exchanged_ = false;

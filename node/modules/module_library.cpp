@@ -176,7 +176,8 @@ ModuleLibrary::ModuleLibrary(ModuleLibrary&& other) noexcept
       handle_(std::exchange(other.handle_, nullptr)),
       copy_(std::exchange(other.copy_, -1)),
       functions_(other.functions_),
-      memory_(std::move(other.memory_)) {}
+      memory_(std::move(other.memory_)),
+      uses_(std::move(other.uses_)) {}
 
 ModuleLibrary& ModuleLibrary::operator=(ModuleLibrary&& other) noexcept {
   std::swap(file_, other.file_);
@@ -186,6 +187,7 @@ ModuleLibrary& ModuleLibrary::operator=(ModuleLibrary&& other) noexcept {
   std::swap(copy_, other.copy_);
   std::swap(functions_, other.functions_);
   std::swap(memory_, other.memory_);
+  std::swap(uses_, other.uses_);
   return *this;
 }
 

@@ -9,7 +9,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "core/base/problem.h"
 #include "node/modules/module_memory.h"
@@ -42,6 +44,11 @@ class ModuleLibrary {
   // Leaves it loaded for as long as the process lives: a run of it ended in the middle.
   void abandon() noexcept;
 
+  // The shared variables that its code reads or writes, with their types: hashes of both.
+  using Uses = std::map<std::uint64_t, std::uint64_t>;
+  void set_uses(Uses uses) { uses_ = std::move(uses); }
+  [[nodiscard]] const Uses& uses() const noexcept { return uses_; }
+
   [[nodiscard]] const ModuleDescriptor& functions() const noexcept { return functions_; }
   [[nodiscard]] const ModuleMemory& memory() const noexcept { return memory_; }
 
@@ -63,6 +70,7 @@ class ModuleLibrary {
   int copy_ = -1;  // stays open: the dynamic linker would mistake a second file with the same inode number for this one
   ModuleDescriptor functions_;
   ModuleMemory memory_;
+  Uses uses_;
 };
 
 }  // namespace indurop::node

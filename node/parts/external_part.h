@@ -28,6 +28,8 @@ class ExternalPart {
   void start(const std::string& node, vars::Store& store, const mirror::MirrorBlock* plant, std::vector<int> cores,
              Console& console);
   void stop() noexcept { external_.reset(); }
+  // Returns true if there are topics of its variables.
+  [[nodiscard]] bool is_wanted() const noexcept { return wanted_; }
 
  private:
   void add(const std::vector<config::VariableRule>& rules, const std::string& variable,

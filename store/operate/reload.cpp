@@ -22,9 +22,17 @@ constexpr const char* kRequestFile = "reload.request";
 constexpr const char* kReportFile = "reload.report";
 
 Json json_of_plan(const ReloadPlan& plan) {
-  return {
-      {"with_state", plan.with_state}, {"why_not", plan.why_not}, {"bytes", plan.bytes},     {"kept", plan.kept},
-      {"grown", plan.grown},           {"added", plan.added},     {"removed", plan.removed}, {"changed", plan.changed}};
+  return {{"with_state", plan.with_state},
+          {"why_not", plan.why_not},
+          {"bytes", plan.bytes},
+          {"kept", plan.kept},
+          {"grown", plan.grown},
+          {"added", plan.added},
+          {"removed", plan.removed},
+          {"changed", plan.changed},
+          {"appeared", plan.appeared},
+          {"converted", plan.converted},
+          {"lost", plan.lost}};
 }
 
 ReloadPlan plan_of(const Json& json) {
@@ -37,6 +45,9 @@ ReloadPlan plan_of(const Json& json) {
   base::read(json, "added", plan.added);
   base::read(json, "removed", plan.removed);
   base::read(json, "changed", plan.changed);
+  base::read(json, "appeared", plan.appeared);
+  base::read(json, "converted", plan.converted);
+  base::read(json, "lost", plan.lost);
   return plan;
 }
 

@@ -28,13 +28,16 @@ struct ReloadRequest {
 // What an exchange carries: names of variables that the versions keep.
 struct ReloadPlan {
   bool with_state = false;
-  std::string why_not;               // why the new version begins with its initial values; empty: it does not
-  std::uint64_t bytes = 0;           // that are carried
-  std::vector<std::string> kept;     // in both versions, with the same type
-  std::vector<std::string> grown;    // an array with more elements now
-  std::vector<std::string> added;    // in the new version only: initial values
-  std::vector<std::string> removed;  // in the old version only
-  std::vector<std::string> changed;  // of another type now: initial values
+  std::string why_not;                 // why the new version begins with its initial values; empty: it does not
+  std::uint64_t bytes = 0;             // that are carried
+  std::vector<std::string> kept;       // in both versions, with the same type
+  std::vector<std::string> grown;      // an array with more elements now
+  std::vector<std::string> added;      // in the new version only: initial values
+  std::vector<std::string> removed;    // in the old version only
+  std::vector<std::string> changed;    // of another type now: initial values
+  std::vector<std::string> appeared;   // shared variables, or parts, that the node did not have: initial values
+  std::vector<std::string> converted;  // parts of shared variables of another type now: carried by name
+  std::vector<std::string> lost;       // parts of shared variables that are not, with the reason
 };
 
 struct ReloadReport {

@@ -76,6 +76,12 @@ void onRun() {
   nt::walked = counted * kFactor;
 #if defined(RELOAD_MORE_ACCESS)
   nt::events = 1;
+#elif defined(RELOAD_GAINS)
+  nt::gained = nt::gained + 1;
+  INDUROP_TYPEOF(nt::pair)::value_type both;
+  both.plus = runs_of_this_version;
+  both.minus = -runs_of_this_version;
+  nt::pair = both;
 #endif
 #if defined(RELOAD_LARGE)
   much[counted % static_cast<std::int64_t>(sizeof much)] = 1;

@@ -6,54 +6,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "node_fixture.h"
+#include "reload_fixture.h"
 
 namespace indurop::test {
 namespace {
 
 using scheduler::ModuleState;
 using scheduler::VersionState;
-
-class Reload : public NodeTest {
- protected:
-  static std::string built(const std::string& version) {
-    return std::filesystem::path(MODULE_DIR) / ("reload_" + version + ".so");
-  }
-  static Module counter(const std::string& version = "same", const std::string& more = "") {
-    return {.file = "reload_" + version + ".so", .name = "counter", .priority = 2, .more = more};
-  }
-  const Module kOther{.file = "counter.so", .name = "other", .priority = 1};
-  Outcome reload(const std::vector<std::string>& words) const {
-    std::vector<std::string> all = {"reload", "--node", node()};
-    all.insert(all.end(), words.begin(), words.end());
-    return indurop(all);
-  }
-  Program& start_counting(const std::string& version = "same", const std::string& more = "") {
-    Program& program = start_and_wait({kOther, counter(version, more)});
-    EXPECT_TRUE(runs_reach("counter", 50));
-    return program;
-  }
-  // What the module has counted; -1: between the two values of a run.
-  std::int64_t counted() const {
-    const auto output = value<std::int32_t>("nt::output");
-    const auto walked = value<std::int64_t>("nt::walked");
-    return output != 0 && std::abs(walked) % output == 0 ? output : -1;
-  }
-  bool counts_up_to(std::int64_t number) {
-    return wait_until([&] { return counted() >= number; });
-  }
-  // No run was left out: it has counted each of them, but `lost`.
-  void expect_all_counted(std::int64_t lost = 0) {
-    const auto& record = module("counter");
-    EXPECT_EQ(record.skipped.load(), run()->lost_ticks.load());
-    EXPECT_TRUE(wait_until([&] {
-      const auto before = static_cast<std::int64_t>(record.runs.load());
-      const std::int64_t now = counted();
-      return now + lost == before && record.runs.load() == static_cast<std::uint64_t>(before);
-    })) << counted()
-        << " of " << record.runs.load();
-  }
-};
 
 TEST_F(Reload, The_new_version_continues_and_no_run_is_left_out) {
   Program& sut = start_counting();
@@ -146,7 +105,6 @@ TEST_F(Reload, What_cannot_run_is_refused_with_all_errors) {
       {built("offers"), {"shared functions"}},
       {built("threads"), {"threads of its own"}},
       {built("more_access"), {"it writes variable nt::events"}},
-      {(std::filesystem::path(MODULE_DIR) / "layout_new.so").string(), {"is not one of this node"}},
       {(std::filesystem::path(MODULE_DIR) / "process.exe").string(), {"not a shared library"}}};
   for (const Case& one : cases) {
     const Outcome done = reload({"counter", one.file});
@@ -157,14 +115,6 @@ TEST_F(Reload, What_cannot_run_is_refused_with_all_errors) {
   }
   EXPECT_EQ(module("counter").version.load(), 1U);
   expect_all_counted();
-}
-
-TEST_F(Reload, A_variable_of_another_layout_is_named_with_its_field) {
-  start_and_wait({kOther, {.file = "layout_old.so", .name = "layout", .priority = 2}});
-  ASSERT_TRUE(runs_reach("layout", 10));
-  const Outcome done = reload({"layout", std::filesystem::path(MODULE_DIR) / "layout_new.so"});
-  EXPECT_EQ(done.code, 4) << done.err;
-  EXPECT_CONTAINS(done.err, "has another layout in this node: field");
 }
 
 TEST_F(Reload, Values_that_would_be_lost_are_named_and_need_consent) {

@@ -59,6 +59,11 @@ void print_plan(Context& context, const operate::ReloadPlan& plan) {
   print_names(context, "added", plan.added, " (initial values)");
   print_names(context, "removed", plan.removed, "");
   print_names(context, "changed", plan.changed, " (another type now: initial values)");
+  print_names(context, "converted", plan.converted, " (shared, of another type now)");
+  print_names(context, "new", plan.appeared, " (shared, initial values)");
+  for (const std::string& one : plan.lost) {
+    context.out.line("  lost      " + printable(one));
+  }
 }
 
 void print_exchange(Context& context, const operate::ReloadReport& report) {

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// indurop reload: versions that bring variables that the node does not have, or declare them in another way.
+
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "reload_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using scheduler::ModuleState;
+
+TEST_F(Reload, New_variables_appear_and_all_tools_see_them) {
+  start_counting();
+  EXPECT_EQ(indurop({"get", "nt::gained", "--node", node()}).code, 1);
+  Program watching({INDUROP_PROGRAM, "watch", "nt::output", "-o", "json", "--hz", "50"}, environment());
+  ASSERT_TRUE(watching.prints("nt::output"));
+  Outcome done = reload({"counter", built("gains"), "--dry-run"});
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_CONTAINS(done.out, "new       nt::gained, nt::pair, nt::limit (shared, initial values)");
+  EXPECT_EQ(indurop({"get", "nt::gained", "--node", node()}).code, 1) << "nothing has changed";
+  done = reload({"counter", built("gains"), "--health", "0s"});
+  EXPECT_EQ(done.code, 0) << done.out << done.err;
+  expect_all_counted();
+  EXPECT_TRUE(wait_until([&] { return value<std::int64_t>("nt::gained") > 60; }));
+  const std::size_t watched = watching.out().size();
+  EXPECT_TRUE(wait_until([&] { return watching.out().size() > watched + 200; })) << watching.err();
+  EXPECT_EQ(value<double>("nt::limit"), 2.5);
+  EXPECT_EQ(indurop({"set", "nt::limit", "3", "--node", node()}).code, 0);
+  EXPECT_EQ(indurop({"set", "nt::limit", "11", "--node", node()}).code, 1);
+  EXPECT_EQ(indurop({"force", "nt::gained", "5", "--node", node()}).code, 0);
+  EXPECT_CONTAINS(indurop({"get", "nt::gained", "--node", node()}).out, "5");
+  EXPECT_CONTAINS(indurop({"status", "--node", node()}).out, "nt::gained");
+  EXPECT_EQ(indurop({"unforce", "nt::gained", "--node", node()}).code, 0);
+  EXPECT_CONTAINS(indurop({"vars", "--node", node()}).out, "nt::pair");
+  EXPECT_EQ(module("counter").faults.load(), 0U);
+}
+
+TEST_F(Reload, New_variables_stay_when_the_previous_version_runs_again) {
+  start_counting();
+  ASSERT_EQ(reload({"counter", built("gains"), "--health", "0s"}).code, 0);
+  ASSERT_TRUE(wait_until([&] { return value<std::int64_t>("nt::gained") > 60; }));
+  ASSERT_EQ(reload({"counter", "--back"}).code, 0);
+  const auto gained = value<std::int64_t>("nt::gained");
+  ASSERT_TRUE(runs_reach("counter", module("counter").runs.load() + 20));
+  EXPECT_EQ(value<std::int64_t>("nt::gained"), gained);
+  expect_all_counted();
+  ASSERT_EQ(reload({"counter", built("gains"), "--health", "0s"}).code, 0);
+  EXPECT_TRUE(wait_until([&] { return value<std::int64_t>("nt::gained") > gained + 20; })) << "its value has stayed";
+  expect_all_counted();
+}
+
+TEST_F(Reload, A_node_that_is_killed_after_its_store_has_grown_starts_with_its_values) {
+  Program& first = start_counting();
+  ASSERT_EQ(reload({"counter", built("gains"), "--health", "0s"}).code, 0);
+  ASSERT_EQ(indurop({"set", "nt::sum", "4.5", "--node", node()}).code, 0);
+  first.signal(SIGKILL);
+  (void)first.wait();
+  EXPECT_GT(value<std::int64_t>("nt::gained"), 11) << "values outlive the node";
+  start_counting("gains");
+  EXPECT_EQ(value<double>("nt::sum"), 4.5);
+  EXPECT_GT(value<std::int64_t>("nt::gained"), 11);
+}
+
+// A module that counts its runs in a field of a shared variable, in versions that declare this in other ways.
+class OtherTypes : public Reload {
+ protected:
+  static Module axis(const std::string& name, int priority = 2) {
+    return {.file = "layout_old.so", .name = name, .priority = priority};
+  }
+  static std::string layout(const std::string& version) {
+    return std::filesystem::path(MODULE_DIR) / ("layout_" + version + ".so");
+  }
+  std::int64_t moved() const {
+    const auto json = indurop({"get", "nt_layout::axis.x", "--node", node(), "-o", "json"}).json();
+    return json.is_discarded() ? -1 : json["values"][0]["value"].get<std::int64_t>();
+  }
+  // No run was lost but these.
+  void expect_all_moved(std::int64_t lost = 0) {
+    EXPECT_TRUE(wait_until([&] {
+      const auto before = static_cast<std::int64_t>(module("layout").runs.load());
+      const std::int64_t now = moved() + lost;
+      return before <= now && now <= static_cast<std::int64_t>(module("layout").runs.load());
+    })) << moved()
+        << " of " << module("layout").runs.load();
+  }
+};
+
+TEST_F(OtherTypes, Are_carried_by_name_and_back) {
+  start_and_wait({kOther, axis("layout")});
+  ASSERT_TRUE(runs_reach("layout", 100));
+  for (int round = 0; round < 3; ++round) {
+    Outcome done = reload({"layout", layout("wide"), "--health", "0s"});
+    EXPECT_EQ(done.code, 0) << done.out << done.err;
+    EXPECT_CONTAINS(done.out, "converted nt_layout::axis.speed, nt_layout::axis.x (shared, of another type now)");
+    EXPECT_CONTAINS(done.out, "new       nt_layout::axis.more (shared, initial values)");
+    expect_all_moved();
+    EXPECT_CONTAINS(indurop({"get", "nt_layout::axis", "--node", node()}).out, "more");
+    EXPECT_EQ(indurop({"get", "nt_layout::axis_before", "--node", node()}).code, 0);
+    done = reload({"layout", "--back"});
+    EXPECT_EQ(done.code, 0) << done.err;
+    expect_all_moved();
+  }
+  EXPECT_EQ(module("layout").faults.load(), 0U);
+}
+
+TEST_F(OtherTypes, Are_refused_with_the_field_where_a_module_that_stays_uses_the_former_one) {
+  start_and_wait({axis("stays", 1), axis("layout")});
+  ASSERT_TRUE(runs_reach("layout", 10));
+  const Outcome done = reload({"layout", layout("wide")});
+  EXPECT_EQ(done.code, 4) << done.err;
+  EXPECT_CONTAINS(done.err, "variable nt_layout::axis has another layout in this node: field");
+  EXPECT_CONTAINS(done.err, "module stays, which stays, uses its layout");
+  EXPECT_EQ(indurop({"get", "nt_layout::axis_before", "--node", node()}).code, 1);
+}
+
+TEST_F(OtherTypes, Are_refused_for_forced_variables_and_those_with_fail_safe_values) {
+  start_and_wait({kOther, axis("layout")});
+  ASSERT_TRUE(runs_reach("layout", 10));
+  ASSERT_EQ(indurop({"force", "nt_layout::axis.x", "5", "--node", node()}).code, 0);
+  EXPECT_CONTAINS(reload({"layout", layout("wide")}).err, "it is forced");
+  ASSERT_EQ(indurop({"unforce", "nt_layout::axis.x", "--node", node()}).code, 0);
+  EXPECT_EQ(reload({"layout", layout("wide"), "--health", "0s"}).code, 0);
+}
+
+TEST_F(OtherTypes, A_value_that_does_not_fit_is_lost_only_with_consent) {
+  start_and_wait({kOther, axis("layout")});
+  ASSERT_TRUE(runs_reach("layout", 300));
+  Outcome done = reload({"layout", layout("narrow")});
+  EXPECT_EQ(done.code, 4) << done.err;
+  EXPECT_CONTAINS(done.out, "is no value of uint8_t");
+  EXPECT_CONTAINS(done.err, "--lossy");
+  expect_all_moved();
+  done = reload({"layout", layout("narrow"), "--lossy", "--health", "0s"});
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_TRUE(wait_until([&] { return moved() >= 0 && moved() < 256; }));
+}
+
+TEST_F(OtherTypes, A_version_that_throws_is_replaced_with_the_values_before_that_run) {
+  start_and_wait({kOther, axis("layout")});
+  ASSERT_TRUE(runs_reach("layout", 100));
+  const Outcome done = reload({"layout", layout("throws"), "--health", "20s"});
+  EXPECT_EQ(done.code, 5) << done.out << done.err;
+  EXPECT_CONTAINS(done.err, "the previous version runs again: the new one faulted in tick");
+  EXPECT_EQ(module("layout").state.load(), ModuleState::Running);
+  expect_all_moved(1);
+  const std::int64_t now = moved();
+  EXPECT_TRUE(wait_until([&] { return moved() > now + 20; }));
+}
+
+}  // namespace
+}  // namespace indurop::test

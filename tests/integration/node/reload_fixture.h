@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A node whose module "counter" is exchanged: it counts its runs and those of the versions before it.
+
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "node_fixture.h"
+
+namespace indurop::test {
+
+class Reload : public NodeTest {
+ protected:
+  static std::string built(const std::string& version) {
+    return std::filesystem::path(MODULE_DIR) / ("reload_" + version + ".so");
+  }
+  static Module counter(const std::string& version = "same", const std::string& more = "") {
+    return {.file = "reload_" + version + ".so", .name = "counter", .priority = 2, .more = more};
+  }
+  const Module kOther{.file = "counter.so", .name = "other", .priority = 1};
+  Outcome reload(const std::vector<std::string>& words) const {
+    std::vector<std::string> all = {"reload", "--node", node()};
+    all.insert(all.end(), words.begin(), words.end());
+    return indurop(all);
+  }
+  Program& start_counting(const std::string& version = "same", const std::string& more = "") {
+    Program& program = start_and_wait({kOther, counter(version, more)});
+    EXPECT_TRUE(runs_reach("counter", 50));
+    return program;
+  }
+  // What the module has counted; -1: between the two values of a run.
+  std::int64_t counted() const {
+    const auto output = value<std::int32_t>("nt::output");
+    const auto walked = value<std::int64_t>("nt::walked");
+    return output != 0 && std::abs(walked) % output == 0 ? output : -1;
+  }
+  bool counts_up_to(std::int64_t number) {
+    return wait_until([&] { return counted() >= number; });
+  }
+  // No run was left out: it has counted each of them, but `lost`.
+  void expect_all_counted(std::int64_t lost = 0) {
+    const auto& record = module("counter");
+    EXPECT_EQ(record.skipped.load(), run()->lost_ticks.load());
+    EXPECT_TRUE(wait_until([&] {
+      const auto before = static_cast<std::int64_t>(record.runs.load());
+      const std::int64_t now = counted();
+      return now + lost == before && record.runs.load() == static_cast<std::uint64_t>(before);
+    })) << counted()
+        << " of " << record.runs.load();
+  }
+};
+
+}  // namespace indurop::test
