@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop reload: versions that bring variables that the node does not have, or declare them in another way.
 
+#include <array>
+#include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <thread>
 
+#include "core/schema/leaf.h"
+#include "core/schema/schema.h"
 #include "reload_fixture.h"
+#include "store/vars/store.h"
 
 namespace indurop::test {
 namespace {
@@ -104,6 +111,47 @@ TEST_F(OtherTypes, Are_carried_by_name_and_back) {
     expect_all_moved();
   }
   EXPECT_EQ(module("layout").faults.load(), 0U);
+}
+
+// The count only grows: a value of the former layout after a later one, or half of one, would show.
+TEST_F(OtherTypes, Readers_see_a_count_that_never_goes_back_while_its_type_changes) {
+  start_and_wait({kOther, axis("layout")});
+  ASSERT_TRUE(runs_reach("layout", 50));
+  std::atomic<bool> done{false};
+  std::atomic<std::uint64_t> reads{0};
+  std::atomic<std::uint64_t> wrong{0};
+  std::atomic<std::uint64_t> follows{0};
+  std::thread reader([&] {
+    std::int64_t last = 0;
+    while (!done.load()) {
+      const auto store = vars::Store::attach(node(), vars::Mode::ReadOnly);
+      const auto place = store ? schema::find_place(store->schema(), "nt_layout::axis.x")
+                               : Result<schema::Place, schema::Failure>(schema::Failure{});
+      const auto* entry = place ? store->find(place->variable->name_hash()) : nullptr;
+      while (entry != nullptr && !done.load() && !store->grown()) {
+        std::array<std::uint8_t, sizeof(std::int64_t)> bytes{};
+        const std::span<std::uint8_t> part(bytes.data(), place->type.element_size);
+        if (!store->read(*entry, place->offset, part)) {
+          break;  // it has moved
+        }
+        const std::int64_t now = *schema::as_number<std::int64_t>(place->type.base, bytes.data());
+        wrong += now < last ? 1U : 0U;
+        last = now;
+        ++reads;
+      }
+      ++follows;
+    }
+  });
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(reload({"layout", layout("wide"), "--health", "0s"}).code, 0);
+    EXPECT_EQ(reload({"layout", "--back"}).code, 0);
+  }
+  done = true;
+  reader.join();
+  EXPECT_EQ(wrong.load(), 0U);
+  EXPECT_GT(reads.load(), 1000U);
+  EXPECT_GE(follows.load(), 20U);
+  expect_all_moved();
 }
 
 TEST_F(OtherTypes, Are_refused_with_the_field_where_a_module_that_stays_uses_the_former_one) {
