@@ -27,6 +27,7 @@ ReadAhead::Next Plans::begin_next(const Joints& from, bool more) noexcept {
       request.command.zone = 0;
     }
     request.command.acceleration = next.acceleration;
+    request.command.wave = next.wave;
     ask(request);
   } else if (next.command != nullptr) {
     source_ = next.command->source;

@@ -29,6 +29,7 @@ enum class Op : std::uint8_t {
   Acceleration,  // value: part of the full accelerations and jerks
   Tool,          // index: tool
   Load,          // index: load of the book
+  Weave,         // slot: wave of the book, -1: none
   Correct,       // slot: correction of the book, -1: ends it; index: frame of its axes, -1: the base
   Set,           // index: signal; formula; pulse
   SetOnPath,     // as Set, during the motion before it: value: m before its end, after its start if mid is 1;
@@ -214,6 +215,7 @@ struct JobBook {
   std::vector<JobText> texts{};
   std::vector<JobQuestion> questions{};
   std::vector<JobCorrection> corrections{};
+  std::vector<Wave> waves{};
   // An ON statement: its condition, and the job that it calls when the condition becomes true.
   struct Interrupt {
     int formula = -1;

@@ -10,8 +10,9 @@ namespace {
 
 constexpr std::size_t kMostSteps = 20000;
 constexpr const char* kStatements =
-    "POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, VAR, SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SEARCH, CORRECT, "
-    "TRACK, FOLLOW, SET, PULSE, WAIT, ASK, CALL, ON, OFF, RETURN, RAISE, MESSAGE, LABEL, GOTO, IF, ELSEIF, ELSE, "
+    "POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, VAR, SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SEARCH, WEAVE, "
+    "CORRECT, TRACK, FOLLOW, SET, PULSE, WAIT, ASK, CALL, ON, OFF, RETURN, RAISE, MESSAGE, LABEL, GOTO, IF, ELSEIF, "
+    "ELSE, "
     "WHILE, "
     "FOR, LOOP, EXIT, SWITCH, CASE, DEFAULT, TRY, RECOVER and END";
 
@@ -28,6 +29,7 @@ JobParser::JobParser(JobBook& book, base::Diagnostics& errors, const ArmShape& s
       bodies_({line_, draft_, names_, expressions_}),
       motions_({line_, draft_, names_, expressions_}),
       each_period_({line_, draft_, names_, expressions_}),
+      weaving_({line_, draft_, names_, expressions_}),
       flow_({line_, draft_, names_, expressions_}),
       values_({line_, draft_, names_, expressions_}, flow_, place_formulas_),
       blocks_({line_, draft_, names_, expressions_}) {}
@@ -77,6 +79,7 @@ void JobParser::statement() {
       {"MOVC", [](JobParser& p) { p.motions_.move(Move::Circle); }},
       {"MOVS", [](JobParser& p) { p.motions_.spline(); }},
       {"SEARCH", [](JobParser& p) { p.motions_.search(); }},
+      {"WEAVE", [](JobParser& p) { p.weaving_.weave(); }},
       {"CORRECT", [](JobParser& p) { p.each_period_.correct(); }},
       {"FOLLOW", [](JobParser& p) { p.each_period_.follow(); }},
       {"TRACK", [](JobParser& p) { p.each_period_.track(); }},

@@ -13,6 +13,7 @@
 #include "control/robot/job/statement.h"
 #include "control/robot/job/tools.h"
 #include "control/robot/job/values.h"
+#include "control/robot/job/weaving.h"
 
 namespace indurop::robot {
 
@@ -40,6 +41,7 @@ class JobParser {
   BodyReader bodies_;
   MotionReader motions_;
   EachPeriodReader each_period_;
+  WeaveReader weaving_;
   FlowReader flow_;
   ValueReader values_;
   BlockReader blocks_;

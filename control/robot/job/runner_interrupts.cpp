@@ -44,6 +44,7 @@ void JobRunner::begin_interrupt() noexcept {
   question_.close();
   outputs_.on_path.clear();
   search_ = {};
+  settings_.wave = -1;
   in_job_ = false;
   jobs_.call(interrupts_.begin(), {});
 }

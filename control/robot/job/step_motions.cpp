@@ -12,6 +12,8 @@ void MotionSettings::apply(const Step& step) noexcept {
     acceleration = step.value;
   } else if (step.op == Op::Tool) {
     tool = step.index;
+  } else if (step.op == Op::Weave) {
+    wave = step.slot;
   } else if (step.op == Op::Speed && step.index == 1) {
     tool_speed = step.value;
   } else if (step.op == Op::Speed) {
@@ -89,6 +91,11 @@ StepValues::Flaw StepMotions::make(const Step& step, const MotionSettings& setti
   command.straight = step.move == Move::Joint && step.value != 0;
   command.more = step.move == Move::Spline && step.value != 0;
   command.alone = until;
+  if (own.wave >= 0 && step.move != Move::Joint) {
+    command.wave = book_.waves[static_cast<std::size_t>(own.wave)];
+    command.zone = 0;
+    command.alone = true;
+  }
   return {};
 }
 

@@ -15,6 +15,7 @@ struct MotionSettings {
   double zone = 0;        // m
   double acceleration = 1;
   int tool = 0;
+  int wave = -1;  // of the book; -1: none
 
   void apply(const Step& step) noexcept;
 };

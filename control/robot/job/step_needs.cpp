@@ -52,6 +52,7 @@ bool touches_world(const JobBook& book, const Step& step) noexcept {
     case Op::Ask:
     case Op::Tool:
     case Op::Load:
+    case Op::Weave:
     case Op::Correct:
     case Op::Track:
     case Op::Arm:

@@ -74,6 +74,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "the axis cannot push with a torque: rated_torque, masses in the URDF, or the drive's mode 10 is missing";
     case ErrorCode::Planner:
       return "a thread of the robot task crashed; start the task again, and report what the module's fault says";
+    case ErrorCode::Wave:
+      return "the tool points along the way, so there is no side to weave to; turn the tool, or end it with WEAVE OFF";
   }
   return "unknown error";
 }

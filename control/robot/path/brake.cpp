@@ -62,7 +62,7 @@ Reach PathBrake::look_ahead(const PathAhead& path, const Joints& here, double di
   Joints near = here;
   while (bounds_[pieces_] < way) {
     const double from = bounds_[pieces_];
-    const double end = timed_ || pieces_ == kMostPieces - 1 ? way : std::min(way, path.smooth_until(from));
+    const double end = pieces_ == kMostPieces - 1 ? way : std::min(way, path.smooth_until(from));
     if (const Reach reach = fit(path, near, from, end - from); reach != Reach::Ok) {
       return reach;
     }

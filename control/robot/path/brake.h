@@ -36,8 +36,8 @@ class PathAhead {
   virtual Reach joints_on_path(double along, const Joints& near, Joints& q) const noexcept {
     return joints_ahead(along, near, q);
   }
-  // Distance at which the piece of the path around `distance` ends; infinite for the last piece. Shapes change abruptly
-  // there.
+  // Distance along the path at which the piece of it around `distance` ends; infinite for the last piece. Shapes change
+  // abruptly there, or are no longer simple.
   [[nodiscard]] virtual double smooth_until(double /*distance*/) const noexcept { return HUGE_VAL; }
   // Distance to the end of the path.
   [[nodiscard]] virtual double left() const noexcept = 0;
@@ -104,7 +104,7 @@ class PathBrake {
   Joints jerk_ = Joints::Zero();
   // The path ahead as polynomials of the fourth degree, one for each of its pieces, in quarters of the length of the
   // piece; and its timing, if it has one, in equal parts of `length_`.
-  static constexpr std::size_t kMostPieces = 3;
+  static constexpr std::size_t kMostPieces = 8;
   static constexpr int kTimes = 16;
   std::size_t pieces_ = 0;
   std::array<double, kMostPieces + 1> bounds_{};

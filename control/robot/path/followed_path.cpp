@@ -109,6 +109,10 @@ Reach FollowedPath::joints_ahead(double distance, const Joints& near, Joints& q)
 }
 
 double FollowedPath::smooth_until(double distance) const noexcept {
+  constexpr double kPart = 1.0 / 8;  // of a wave, that a polynomial of the fourth degree describes
+  if (const Segment& s = segment(); s.wave.on()) {
+    return distance + kPart * s.wave.length * (s.timed ? s.stretch : s.length) / s.way;
+  }
   if (!is_blended()) {
     return HUGE_VAL;
   }

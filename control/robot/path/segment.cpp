@@ -70,10 +70,28 @@ Pose Segment::pose_at(double place) const noexcept {
 }
 
 Pose Segment::pose_on_path(double along) const noexcept {
+  return wave.on() ? wave.shifted(calm_at(along), way_at(along)) : calm_at(along);
+}
+
+double Segment::part_at(double along) const noexcept {
+  return length > 0 ? std::clamp(along / (timed ? stretch : length), 0.0, 1.0) : 1;
+}
+
+PathWay Segment::way_at(double along) const noexcept {
+  if (chain != nullptr) {
+    return chain->way_at(along);
+  }
+  const double part = part_at(along);
+  const Vec3 ahead = move == Move::Circle ? Vec3(std::cos(part * angle) * radius_y - std::sin(part * angle) * radius_x)
+                                          : Vec3(end.position - start.position);
+  return {part * way, way, ahead};
+}
+
+Pose Segment::calm_at(double along) const noexcept {
   if (chain != nullptr) {
     return chain->pose_at(along);
   }
-  const double part = length > 0 ? std::clamp(along / (timed ? stretch : length), 0.0, 1.0) : 1;
+  const double part = part_at(along);
   Pose pose;
   pose.orientation = start.orientation * rotation_by(part * turn);
   if (move == Move::Circle) {

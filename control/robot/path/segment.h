@@ -16,6 +16,7 @@
 #include "control/robot/path/profile.h"
 #include "control/robot/path/timing.h"
 #include "control/robot/path/tool_path.h"
+#include "control/robot/path/wave.h"
 
 namespace indurop::robot {
 
@@ -45,6 +46,7 @@ struct MoveCommand {
   int source = 0;            // number that the caller uses for it
   std::uint32_t ticket = 0;  // its number among the motions of a job, from 1
   bool alone = false;        // is not joined with neighbouring lines into one path
+  Wave wave{};               // across lines, circles and splines
 };
 
 struct Segment {
@@ -64,6 +66,7 @@ struct Segment {
   double way = 0;                                                                // m, of lines and circles
   double length = 0;                                                             // s at full speed
   double zone = 0;                                                               // m
+  Wave wave;                                                                     // added to pose_at()
   // m/s of the tool's tip or of the arm's end, whichever is faster, at full speed; for joint motions whose axes arrive
   // together it is known when they begin.
   double tip_speed = 0;
@@ -95,6 +98,11 @@ struct Segment {
   [[nodiscard]] Pose pose_at(double place) const noexcept;
   // The same by the distance on the path, whether the timing is in use or not.
   [[nodiscard]] Pose pose_on_path(double along) const noexcept;
+  // The same without the wave, and which part of a line or circle that place is.
+  [[nodiscard]] Pose calm_at(double along) const noexcept;
+  [[nodiscard]] double part_at(double along) const noexcept;
+  // The distance on the path, without its wave.
+  [[nodiscard]] PathWay way_at(double along) const noexcept;
   // A joint motion to `to`, at part of full speed, whose axes arrive together.
   static Segment together_to(const Joints& to, double speed) noexcept;
   // The part of the joints' limits that a joint motion may use.

@@ -94,6 +94,14 @@ void Spline::finish() noexcept {
     slopes_[at(i)] = known[at(i)].row(0);
     bends_[at(i)] = known[at(i)].row(1);
   }
+  measure();
+}
+
+void Spline::measure() noexcept {
+  gone_[0] = 0;
+  for (int i = 0; i < count_; ++i) {
+    gone_[at(i) + 1] = gone_[at(i)] + distance(at(i), at_[at(i) + 1]);
+  }
 }
 
 std::size_t Spline::piece_at(double place) const noexcept {
@@ -119,6 +127,25 @@ Spline::Place Spline::look(double place) const noexcept {
   return {values_[k] + t * (slope + t * (bend / 2 + t * (c3 + t * (c4 + t * c5)))),
           slope + t * (bend + t * (3 * c3 + t * (4 * c4 + t * 5 * c5))),
           bend + t * (6 * c3 + t * (12 * c4 + t * 20 * c5)), 6 * c3 + t * (24 * c4 + t * 60 * c5)};
+}
+
+// m on the curve from the beginning of a piece to a place of it, by Gaussian quadrature.
+double Spline::distance(std::size_t piece, double place) const noexcept {
+  constexpr std::array kAt{0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155, 0.95308992296933200};
+  constexpr std::array kWeight{0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
+                               0.11846344252809454};
+  const double way = place - at_[piece];
+  double sum = 0;
+  for (std::size_t i = 0; i < kAt.size(); ++i) {
+    sum += kWeight[i] * look(at_[piece] + kAt[i] * way).first.head<3>().norm();
+  }
+  return way * sum;
+}
+
+PathWay Spline::way_at(double place) const noexcept {
+  place = std::clamp(place, 0.0, length());
+  const std::size_t piece = piece_at(place);
+  return {gone_[piece] + distance(piece, place), gone_[at(count_)], look(place).first.head<3>()};
 }
 
 Pose Spline::pose_at(double place) const noexcept {

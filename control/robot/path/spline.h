@@ -37,6 +37,8 @@ class Spline final : public ToolPath {
 
   [[nodiscard]] Pose pose_at(double place) const noexcept override;
   [[nodiscard]] Shape shape_at(double place) const noexcept override;
+  // Distances are those on the curve itself.
+  [[nodiscard]] PathWay way_at(double place) const noexcept override;
   [[nodiscard]] int source_at(double place) const noexcept override { return knots_[piece_at(place) + 1].source; }
   [[nodiscard]] const Pose& end() const noexcept override { return knots_[static_cast<std::size_t>(count_)].pose; }
   [[nodiscard]] double length() const noexcept override { return at_[static_cast<std::size_t>(count_)]; }
@@ -53,11 +55,14 @@ class Spline final : public ToolPath {
   [[nodiscard]] std::size_t piece_at(double place) const noexcept;
   [[nodiscard]] Place look(double place) const noexcept;
   [[nodiscard]] Vec3 turning_at(double place) const noexcept;
+  void measure() noexcept;
+  [[nodiscard]] double distance(std::size_t piece, double place) const noexcept;
 
   int count_ = 0;  // pieces
   double way_ = 0;
   double at_speed_ = 0;
   std::array<double, kMaxPoints + 1> at_{};
+  std::array<double, kMaxPoints + 1> gone_{};  // m on the curve up to each point
   std::array<Knot, kMaxPoints + 1> knots_{};
   std::array<Values, kMaxPoints + 1> values_{};
   std::array<Values, kMaxPoints + 1> slopes_{}, bends_{};  // first and second derivatives at the points

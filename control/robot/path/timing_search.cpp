@@ -19,6 +19,7 @@ constexpr int kSmoothings = 16;  // a parameter that bends quickly has peaks of 
 
 void TimingSearch::begin(const Segment& segment, const PathBounds& bounds) noexcept {
   segment_ = segment;
+  segment_.wave = {};  // has more bends than a timing has knots; its limits are in segment.most
   timing_ = {};
   near_ = segment.from;
   next_ = 0;
@@ -198,7 +199,8 @@ bool TimingSearch::look(int index) noexcept {
   }
   const ToolPath::Shape tool = segment_.chain->shape_at(g.value);
   const ToolLimits& most = segment_.chain->tool();
-  row(kAxes, 1, 0, 0, {tool.speed, HUGE_VAL, HUGE_VAL});
+  const LineLimits& along = segment_.most;
+  row(kAxes, 1, 0, 0, {std::min(tool.speed, along.velocity), along.acceleration, along.jerk});
   for (int i = 0; i < 3; ++i) {
     row(TimingPlace::kMoving + i, tool.moving[i], tool.bend[i], tool.twist[i],
         {HUGE_VAL, most.acceleration, most.jerk});

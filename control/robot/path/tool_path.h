@@ -6,6 +6,7 @@
 
 #include "control/robot/kinematics/geometry.h"
 #include "control/robot/path/profile.h"
+#include "control/robot/path/wave.h"
 
 namespace indurop::robot {
 
@@ -42,6 +43,10 @@ class ToolPath {
   // Real-time safe, like all functions of this class.
   [[nodiscard]] virtual Pose pose_at(double place) const noexcept = 0;
   [[nodiscard]] virtual Shape shape_at(double place) const noexcept = 0;
+  // Distances are those along its pieces.
+  [[nodiscard]] virtual PathWay way_at(double place) const noexcept {
+    return {place / length() * way(), way(), shape_at(place).moving};
+  }
   // Limits of the speed along the path, with fixed shares for bends and for changes of the speed.
   [[nodiscard]] LineLimits limits_at(double place) const noexcept;
   [[nodiscard]] const ToolLimits& tool() const noexcept { return tool_; }

@@ -11,6 +11,7 @@ namespace {
 constexpr double kOfEffort = 0.99;  // part of the limits; margin for values between samples
 constexpr int kFewestSamples = 32;  // number of places
 constexpr int kMostSamples = 1500;
+constexpr int kMostInWaves = 50'000;
 constexpr double kStep = 0.004;  // s between instants of a timing
 // Part of the speed below which a motion is rejected after however long a planning: it would nearly stand still.
 constexpr double kStandstill = 1e-4;
@@ -94,10 +95,12 @@ void EffortLook::begin(const Segment& segment) noexcept {
   if (places_.dynamics() == nullptr || !(segment.length > 0)) {
     return;
   }
-  // Even a segment with a timing is followed at one speed if the previous motion blends into it; a chain never is.
-  begin_way(segment, segment.move == Move::Joint                          ? Way::JointsStraight
-                     : segment.chain != nullptr && segment.timing.known() ? Way::Timing
-                                                                          : Way::Speed);
+  // Even a segment with a timing is followed at one speed if the previous motion blends into it; a chain never is,
+  // nor a wave.
+  const bool at_rest = segment.chain != nullptr || segment.wave.on();
+  begin_way(segment, segment.move == Move::Joint         ? Way::JointsStraight
+                     : at_rest && segment.timing.known() ? Way::Timing
+                                                         : Way::Speed);
 }
 
 void EffortLook::begin_way(const Segment& segment, Way way) noexcept {
@@ -106,8 +109,9 @@ void EffortLook::begin_way(const Segment& segment, Way way) noexcept {
   next_ = 0;
   seen_.fill(segment.from);
   constexpr double kNearlyFull = 1 - 1e-9;
-  const auto instants = [](double duration) {
-    return std::clamp(static_cast<int>(std::min(duration / kStep, 1e6)), kFewestSamples, kMostSamples);
+  const int most = segment.wave.on() ? kMostInWaves : kMostSamples;
+  const auto instants = [most](double duration) {
+    return std::clamp(static_cast<int>(std::min(duration / kStep, 1e6)), kFewestSamples, most);
   };
   switch (way) {
     case Way::None:
@@ -125,7 +129,7 @@ void EffortLook::begin_way(const Segment& segment, Way way) noexcept {
     case Way::JointsStraight:
     case Way::Speed:
       paces_ = at_one_speed(segment.limits);
-      count_ = way == Way::Speed ? kMostSamples / 8 : kFewestSamples;
+      count_ = way == Way::Speed ? most / 8 : kFewestSamples;
       break;
     case Way::Timing:
       paces_ = changing(segment.pace_limits, 1);

@@ -21,7 +21,8 @@ void MotionPlanning::plan(const PlanRequest& request, const std::atomic<bool>& d
   plan.blend = {};
   plan.parts = false;
   if (request.chain != nullptr) {
-    plan.fault = finish(planner_.begin(*request.chain, request.from, request.command.acceleration), dropped);
+    plan.fault = finish(
+        planner_.begin(*request.chain, request.from, request.command.acceleration, request.command.wave), dropped);
     plan.segment = planner_.segment();
     plan.parts = request.lines != nullptr && parts(*request.lines, request, dropped, plan);
   }

@@ -16,7 +16,8 @@ constexpr int kShort = 2000;                // instants of a motion that is rehe
 }  // namespace
 
 bool MotionRehearsal::is_fine() const noexcept {
-  return draft_.segment.chain != nullptr || draft_.work.settles_slowly() || findings_.nearly_singular();
+  return draft_.segment.chain != nullptr || draft_.segment.wave.on() || draft_.work.settles_slowly() ||
+         findings_.nearly_singular();
 }
 
 // s between two instants, at most.
@@ -43,7 +44,7 @@ double MotionRehearsal::place_at(double time) const noexcept {
 
 bool MotionRehearsal::check_next() noexcept {
   draft_.work.add_on_path(1);
-  if (const double far = rehearsal_.far_time(); far >= 0) {
+  if (const double far = rehearsal_.far_time(); far >= 0 && !draft_.segment.wave.on()) {
     draft_.work.add_on_path(1);
     rehearsal_.skip(draft_.segment, place_at(far));
   }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/plan/path_clearance.h"
 
+#include <algorithm>
+
 namespace indurop::robot {
 
 namespace {
 
 constexpr double kClearParts = 8;  // of a joint path: the longest step
+constexpr double kWaveParts = 8;   // of a wave: the longest step in which the middle shows its bend
 
 }  // namespace
 
@@ -17,7 +20,8 @@ void PathClearance::begin() noexcept {
   }
   bodies_.begin(s.from, places_.tool());
   if (s.move != Move::Joint) {
-    walk_.begin(s.length, 2 * s.length / survey_.count());
+    const double widest = 2 * s.length / survey_.count();
+    walk_.begin(s.length, s.wave.on() ? std::min(widest, s.wave.length / kWaveParts / s.pace()) : widest);
     return;
   }
   path_ = s;
@@ -33,7 +37,8 @@ bool PathClearance::joints_at(double place, const Joints& near, Joints& q) const
     q = path_.joints_at(place);
     return true;
   }
-  return survey_.find(place, near, q) || places_.on(draft_.segment, place, q, q) == Reach::Ok;
+  const bool known = survey_.find(place, near, q);
+  return (known && !draft_.segment.wave.on()) || places_.on(draft_.segment, place, q, q) == Reach::Ok;
 }
 
 Fault PathClearance::check(int& places) noexcept {

@@ -54,6 +54,13 @@ void PathFindings::bound(const Rates& rates, double from, double length, const J
   }
 }
 
+void PathFindings::bound_all(const LineLimits& most) noexcept {
+  for (std::size_t i = 0; i < bounds_.speed.size(); ++i) {
+    bounds_.speed[i] = std::min(bounds_.speed[i], most.velocity);
+    bounds_.acceleration[i] = std::min(bounds_.acceleration[i], most.acceleration);
+  }
+}
+
 void PathFindings::note(const Rates& rates) noexcept {
   double& velocity = draft_.segment.limits.velocity;
   velocity = velocity_for(rates, draft_.joints, velocity);

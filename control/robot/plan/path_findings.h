@@ -34,6 +34,8 @@ class PathFindings {
   double bound_tool(double from, double to) noexcept;
   // Bounds the speed, and its changes, in a part of the path that begins at `from` with the joints at `q`.
   void bound(const Rates& rates, double from, double length, const Joints& q) noexcept;
+  // Bounds both everywhere.
+  void bound_all(const LineLimits& most) noexcept;
   // Reduces the draft's speed to what these rates allow, and keeps them for leave_for_changes(). Rates that do not fit
   // are merged into the last ones, which can only make the path slower.
   void note(const Rates& rates) noexcept;

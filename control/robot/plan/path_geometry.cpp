@@ -170,6 +170,7 @@ Fault make_path(const ToolPath& chain, Draft& draft) noexcept {
   Segment& s = draft.segment;
   s.move = Move::Line;
   s.chain = &chain;
+  s.most = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   s.end = chain.end();
   s.way = chain.way();
   s.length = chain.length();

@@ -12,6 +12,7 @@ Planner::Planner(const Places& places, const JointLimits& joints, const ToolLimi
       tool_(tool),
       draft_{{}, joints, tool, {}},
       survey_(places, draft_),
+      wave_(places, draft_, survey_),
       clearance_(places, joints_, draft_, survey_),
       timing_(places, draft_, survey_.findings()),
       effort_(places, joints_),
@@ -24,6 +25,7 @@ void Planner::spare(double part) noexcept {
 
 void Planner::begin(const Joints& from, double acceleration) noexcept {
   draft_.segment = {};
+  draft_.wave = {};
   draft_.segment.acceleration = acceleration;
   draft_.segment.from = from;
   draft_.segment.start = places_.arm().forward(from);
@@ -43,17 +45,19 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
     return fault.ok() ? begin_clearance() : fault;
   }
   if (draft_.segment.length > 0) {
+    draft_.wave = draft_.segment.way > 0 ? command.wave : Wave{};
     survey_.begin();
     stage_ = Stage::Survey;
   }
   return {};
 }
 
-Fault Planner::begin(const ToolPath& chain, const Joints& from, double acceleration) noexcept {
+Fault Planner::begin(const ToolPath& chain, const Joints& from, double acceleration, const Wave& wave) noexcept {
   begin(from, acceleration);
   if (const Fault fault = make_path(chain, draft_); !fault.ok()) {
     return fault;
   }
+  draft_.wave = draft_.segment.way > 0 ? wave : Wave{};
   survey_.begin();
   stage_ = Stage::Survey;
   return {};
@@ -76,6 +80,12 @@ Fault Planner::check_workspace() const noexcept {
     }
   }
   return {};
+}
+
+Fault Planner::begin_wave() noexcept {
+  stage_ = Stage::Wave;
+  wave_.begin();
+  return wave_.done() ? begin_clearance() : Fault{};
 }
 
 Fault Planner::begin_clearance() noexcept {
@@ -127,7 +137,10 @@ Fault Planner::step(int& places) noexcept {
   switch (stage_) {
     case Stage::Survey:
       fault = survey_.check(places);
-      return fault.ok() && survey_.done() ? begin_clearance() : fault;
+      return fault.ok() && survey_.done() ? begin_wave() : fault;
+    case Stage::Wave:
+      fault = wave_.check(places);
+      return fault.ok() && wave_.done() ? begin_clearance() : fault;
     case Stage::Clearance:
       fault = clearance_.check(places);
       return fault.ok() && clearance_.done() ? end_clearance() : fault;

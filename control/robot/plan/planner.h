@@ -10,6 +10,7 @@
 #include "control/robot/plan/motion_timing.h"
 #include "control/robot/plan/path_clearance.h"
 #include "control/robot/plan/path_survey.h"
+#include "control/robot/plan/wave_check.h"
 
 namespace indurop::robot {
 
@@ -27,9 +28,9 @@ class Planner {
   Fault begin(const MoveCommand& command, const Joints& from) noexcept;
   // Begins with a path of many pieces that starts where the arm is at `from` and is not changed until the motion has
   // ended; its tool limits already include `acceleration`. Errors: Value.
-  Fault begin(const ToolPath& chain, const Joints& from, double acceleration = 1) noexcept;
+  Fault begin(const ToolPath& chain, const Joints& from, double acceleration = 1, const Wave& wave = {}) noexcept;
   // Checks up to `places` more places of it; done() then returns whether that was all. Errors: Unreachable, JointLimit,
-  // Singular, Workspace, Collision, Torque.
+  // Singular, Workspace, Collision, Torque, Wave.
   Fault check(int places) noexcept;
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
   // Complete when done().
@@ -47,12 +48,13 @@ class Planner {
   }
 
  private:
-  // The steps: check reach, limits and singular positions; check collisions; find the timing and rehearse it; check
-  // torques.
-  enum class Stage { Survey, Clearance, Timing, Effort, Done };
+  // The steps: check reach, limits and singular positions; add a wave; check collisions; find the timing and rehearse
+  // it; check torques.
+  enum class Stage { Survey, Wave, Clearance, Timing, Effort, Done };
 
   void begin(const Joints& from, double acceleration) noexcept;
   Fault step(int& places) noexcept;
+  Fault begin_wave() noexcept;
   Fault begin_clearance() noexcept;
   Fault end_clearance() noexcept;
   Fault begin_timing() noexcept;
@@ -66,6 +68,7 @@ class Planner {
   const ToolLimits tool_;
   Draft draft_;
   PathSurvey survey_;
+  WaveCheck wave_;
   PathClearance clearance_;
   MotionTiming timing_;
   EffortLook effort_;

@@ -121,7 +121,7 @@ ReadAhead::Next ReadAhead::next_spline(const Joints& from) noexcept {
   }
   spline.finish();
   spline_ = (spline_ + 1) % splines_.size();
-  return {&spline, nullptr, last.ticket, acceleration};
+  return {&spline, nullptr, last.ticket, acceleration, nullptr, nullptr, last.wave};
 }
 
 // The scanned lines are a chain, and stay where they are until it is known how they are followed.

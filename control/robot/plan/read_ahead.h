@@ -44,6 +44,7 @@ class ReadAhead {
     double acceleration = 1;               // of a chain, as MoveCommand::acceleration
     const Chain* lines = nullptr;          // the chain, if it consists of lines
     const MoveCommand* then = nullptr;     // the motion after a command, if it is known and begins no chain
+    Wave wave{};                           // of a spline
   };
   // Returns the next motion, which begins at `from`. `more`: other motions may follow at once.
   Next next(const Joints& from, bool more) noexcept;
