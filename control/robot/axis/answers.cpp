@@ -10,9 +10,9 @@ void AxisAnswers::finish(AxisOwner& owner, ErrorCode code) noexcept {
   if (owner.is_request()) {
     std::uint32_t& number = code == ErrorCode::Ok ? report_.done : report_.aborted;
     number = report_.acknowledged;
-  } else if (owner.any() && owner.ticket == holder_ && code == ErrorCode::Ok) {
+  } else if (owner.is_command() && owner.ticket == holder_ && code == ErrorCode::Ok) {
     table_->holds(owner.ticket);
-  } else if (owner.any()) {
+  } else if (owner.is_command()) {
     holder_ = owner.ticket == holder_ ? AxisOwner::kNone : holder_;
     table_->end(owner.ticket, code);
   }
@@ -28,7 +28,7 @@ void AxisAnswers::answer(int ticket, AxisService service, ErrorCode code) noexce
 }
 
 void AxisAnswers::active(int ticket) noexcept {
-  if (ticket != AxisOwner::kRequest) {
+  if (ticket >= 0) {
     table_->active(ticket);
   }
 }

@@ -9,17 +9,18 @@
 
 namespace indurop::robot {
 
-// Who waits for the end of an action: a ticket of the table, or the request.
+// Who waits for the end of an action: a ticket of the table, the request, or the job.
 struct AxisOwner {
   static constexpr int kNone = CommandTable::kNone;
   static constexpr int kRequest = -2;
+  static constexpr int kJob = -3;  // sees what the axis does
 
   int ticket = kNone;
   AxisService service = AxisService::None;
 
   [[nodiscard]] bool any() const noexcept { return ticket != kNone; }
   [[nodiscard]] bool is_request() const noexcept { return ticket == kRequest; }
-  [[nodiscard]] bool is_command() const noexcept { return any() && !is_request(); }
+  [[nodiscard]] bool is_command() const noexcept { return ticket >= 0; }
 };
 
 class AxisAnswers {

@@ -74,6 +74,8 @@ class AxisBody {
   [[nodiscard]] bool displaced() const noexcept { return displaced_; }
   // Returns whether it pushes with a torque: the set point is the drive's position.
   [[nodiscard]] bool pushes() const noexcept { return parts_.pushing.pushes(); }
+  // Returns whether it pushes with all of the torque.
+  [[nodiscard]] bool pushes_fully() const noexcept { return parts_.pushing.pushes() && parts_.pushing.reached(); }
   [[nodiscard]] bool led_by_drive() const noexcept { return parts_.pushing.led_by_drive(); }
   // Returns the torque for its drive in addition to what the arm needs, in N m or N.
   [[nodiscard]] double torque() const noexcept { return parts_.pushing.torque(); }

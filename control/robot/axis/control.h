@@ -35,6 +35,13 @@ class AxisControl : public AxisBody {
   void serve(const AxisRequest& request, ErrorCode permit) noexcept;
   // Takes a command from the table.
   void take(int ticket, ErrorCode permit) noexcept;
+  // Pushes with a torque for the job, until halt(); it must not be in the group.
+  void push(const Command& command) noexcept {
+    answers_.forget_error();
+    motions_.take(AxisOwner::kJob, command);
+  }
+  // Why its last motion of its own ended or was refused; Ok: it did not, or well.
+  [[nodiscard]] ErrorCode error() const noexcept { return answers_.report().error; }
   // Continues its own motion by one period; called after move() of its master.
   void move(double seconds) noexcept;
   // Follows the group.

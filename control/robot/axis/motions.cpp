@@ -100,7 +100,7 @@ void AxisMotions::take(int ticket, const Command& command) noexcept {
     answers_.answer(ticket, axis_service_of(command), code);
     return;
   }
-  if (ticket == AxisOwner::kRequest || command.buffer == BufferMode::Aborting) {
+  if (ticket < 0 || command.buffer == BufferMode::Aborting) {
     queue_.abort(answers_.table());
     // An additive target is added to the target of the previous motion.
     added_to_ = is_to_position() ? parts_.motion.target() : parts_.motion.state().position;

@@ -130,6 +130,7 @@ void Group::drop_aside() noexcept {
 
 void Group::end_motion() noexcept {
   correction_.stand();
+  static_cast<void>(job_motions_.step_push());  // an axis that pushed for a job rests now
   robot_.states.end_motion();
   queue_.end_interrupt(ErrorCode::Ok);
   jogging_.end();

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "control/robot/group/group_push.h"
 #include "control/robot/group/interrupt_shelf.h"
 #include "control/robot/group/off_path.h"
 #include "control/robot/group/plans.h"
@@ -22,13 +23,14 @@ class JobMotions final : public MotionPort {
         shelf_(shelf),
         torques_(torques),
         conveyor_(off_path.conveyor),
-        correction_(off_path.correction) {}
+        correction_(off_path.correction),
+        push_(robot) {}
 
   [[nodiscard]] bool ready() const noexcept override { return plans_.ahead().has_room(); }
   // An interrupted job keeps what was to be planned.
   [[nodiscard]] bool settled() const noexcept override {
     return (resuming_.aside() || plans_.ahead().empty()) && plans_.free() && robot_.follower.idle() &&
-           correction_.at_rest();
+           correction_.at_rest() && !push_.on();
   }
   [[nodiscard]] bool is_moving() const noexcept override { return !robot_.follower.at_rest(); }
   Fault move(const MoveCommand& command) noexcept override;
@@ -38,6 +40,11 @@ class JobMotions final : public MotionPort {
   bool begin_correction(const CorrectionWay& way) noexcept override;
   bool end_correction() noexcept override;
   void correct(const Vec3& shift) noexcept override { correction_.want(shift); }
+  Fault push(const PushWay& way) noexcept override { return push_.begin(way); }
+  [[nodiscard]] PushState pushing() const noexcept override { return push_.state(); }
+  void end_push() noexcept override { push_.end(); }
+  // Called once per period while the group moves. Returns true if an axis pushes instead.
+  bool step_push() noexcept { return push_.step(); }
   Fault track(const BeltWay& way) noexcept override;
   bool ride(bool on_product, ErrorCode& error) noexcept override;
   [[nodiscard]] Pose product() const noexcept override { return conveyor_.product_ahead(); }
@@ -61,6 +68,7 @@ class JobMotions final : public MotionPort {
   TorqueWatch& torques_;
   ConveyorTracking& conveyor_;
   PathCorrection& correction_;
+  GroupPush push_;
 };
 
 }  // namespace indurop::robot

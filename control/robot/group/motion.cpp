@@ -68,7 +68,9 @@ void Group::run_motion(Signals& signals) noexcept {
     begin_next(false);
   }
   take_plan();
-  follow_path();
+  if (!job_motions_.step_push()) {
+    follow_path();
+  }
   if (robot_.states.moving()) {
     queue_.note_progress();
   }

@@ -81,7 +81,7 @@ void Stops::leave_path(ErrorCode code) noexcept {
 
 void Stops::stop_for(const Fault& fault) noexcept {
   group_.forget_plans();
-  robot_.follower.stop();
+  rest();
   robot_.states.stop_to_error(fault.code, fault.axis);
 }
 
@@ -99,7 +99,7 @@ void Stops::stop_for_mode(ErrorCode code) noexcept {
   group_.finish_service(code);
   group_.drop_motions(code);
   group_.forget_plans();
-  if (!states.moving() && !(states.stopping() && states.on_path())) {
+  if (robot_.axes.any_busy() || (!states.moving() && !(states.stopping() && states.on_path()))) {
     halt_axes();
     states.leave_path();
   } else if (code != ErrorCode::Enabling) {
@@ -130,6 +130,16 @@ void Stops::stop_motion() noexcept {
   group_.forget_plans();
 }
 
+// Comes to rest on the path, or where an axis pushes.
+void Stops::rest() noexcept {
+  if (robot_.axes.any_busy()) {
+    halt_axes();
+    robot_.states.leave_path();
+  } else {
+    robot_.follower.stop();
+  }
+}
+
 void Stops::take(int ticket) noexcept {
   GroupStates& states = robot_.states;
   if (!states.powered() || states.to_error() || states.to_disabled()) {
@@ -145,7 +155,7 @@ void Stops::take(int ticket) noexcept {
   }
   stop_motion();
   if (states.moving()) {
-    robot_.follower.stop();
+    rest();
   } else {
     states.leave_path(robot_.axes.any_busy());
     halt_axes();
@@ -171,7 +181,7 @@ ErrorCode Stops::stop() noexcept {
     return ErrorCode::State;
   }
   stop_motion();
-  robot_.follower.stop();
+  rest();
   robot_.states.stop();
   return ErrorCode::Ok;
 }
@@ -183,7 +193,12 @@ ErrorCode Stops::disable() noexcept {
   }
   stop_motion();
   power_.cancel();
-  if (states.moving() || states.is(GroupState::Standby)) {
+  if (states.moving()) {
+    rest();
+    states.stop_to_disabled();
+    return ErrorCode::Ok;
+  }
+  if (states.is(GroupState::Standby)) {
     robot_.follower.stop();
     states.stop_to_disabled();
     return ErrorCode::Ok;

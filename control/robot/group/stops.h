@@ -39,6 +39,7 @@ class Stops {
   void leave_path(ErrorCode code) noexcept;
   void stop_motion() noexcept;
   void halt_axes() noexcept;
+  void rest() noexcept;
   void release() noexcept;
 
   Robot& robot_;

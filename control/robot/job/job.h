@@ -12,6 +12,7 @@
 #include "control/robot/collision/solid.h"
 #include "control/robot/job/formula.h"
 #include "control/robot/job/place_formula.h"
+#include "control/robot/job/push_way.h"
 #include "control/robot/kinematics/body.h"
 #include "control/robot/path/segment.h"
 #include "core/base/diagnostic.h"
@@ -41,6 +42,7 @@ enum class Op : std::uint8_t {
   WaitTime,      // value: s
   Ask,           // slot: question of the book; timeout; index: as WaitUntil
   Call,          // index: job; formula: its first argument; mid: number of arguments; slot: variable for its result
+  Push,          // slot: push of the book
   Track,         // index: computed place of the frame, -1: none moves; mid: frame along or about which it does; value:
                  // belt, from 1; slot: 1 if it is a table
   Arm,           // index: job; formula; slot: interrupt of the book
@@ -106,6 +108,15 @@ struct JobCorrection {
   double rate = 0;       // m/s, of each of them
   int beat = -1;         // signal that changes with each measurement; -1: none
   double age = 0;        // s after which it has to have changed
+};
+
+// A PUSH statement: an axis pushes until a condition holds, or all of its torque has been there for a time.
+struct JobPush {
+  PushWay way{};
+  int until = -1;      // formula; -1: none
+  double hold = 0;     // s that it pushes with all of the torque
+  double timeout = 0;  // s; 0: none
+  bool stays = false;  // it does not return to where it began
 };
 
 // What the line of a motion says besides its points.
@@ -216,6 +227,7 @@ struct JobBook {
   std::vector<JobQuestion> questions{};
   std::vector<JobCorrection> corrections{};
   std::vector<Wave> waves{};
+  std::vector<JobPush> pushes{};
   // An ON statement: its condition, and the job that it calls when the condition becomes true.
   struct Interrupt {
     int formula = -1;

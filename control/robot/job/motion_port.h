@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "control/robot/job/push_way.h"
 #include "control/robot/kinematics/errors.h"
 #include "control/robot/path/segment.h"
 
@@ -46,6 +47,11 @@ class MotionPort {
   virtual bool end_correction() noexcept { return true; }
   // How far to shift from now on, m along the axes; what exceeds the limit is cut off.
   virtual void correct(const Vec3&) noexcept {}
+  // Lets an axis push from now on; all motions must have ended. settled() is false until end_push() has brought it to
+  // rest. Errors: Value, NoTorque, Torque, State.
+  virtual Fault push(const PushWay&) noexcept { return {}; }
+  [[nodiscard]] virtual PushState pushing() const noexcept { return {}; }
+  virtual void end_push() noexcept {}
   // Lets the product's coordinates move with a belt. Errors: Belt.
   virtual Fault track(const BeltWay&) noexcept { return {}; }
   // Brings the tool to where a motion has to begin when all have ended: at rest on the product, or off any belt.

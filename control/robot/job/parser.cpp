@@ -11,7 +11,8 @@ namespace {
 constexpr std::size_t kMostSteps = 20000;
 constexpr const char* kStatements =
     "POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, VAR, SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SEARCH, WEAVE, "
-    "CORRECT, TRACK, FOLLOW, SET, PULSE, WAIT, ASK, CALL, ON, OFF, RETURN, RAISE, MESSAGE, LABEL, GOTO, IF, ELSEIF, "
+    "CORRECT, TRACK, PUSH, FOLLOW, SET, PULSE, WAIT, ASK, CALL, ON, OFF, RETURN, RAISE, MESSAGE, LABEL, GOTO, IF, "
+    "ELSEIF, "
     "ELSE, "
     "WHILE, "
     "FOR, LOOP, EXIT, SWITCH, CASE, DEFAULT, TRY, RECOVER and END";
@@ -30,6 +31,7 @@ JobParser::JobParser(JobBook& book, base::Diagnostics& errors, const ArmShape& s
       motions_({line_, draft_, names_, expressions_}),
       each_period_({line_, draft_, names_, expressions_}),
       weaving_({line_, draft_, names_, expressions_}),
+      pushing_({line_, draft_, names_, expressions_}, shape),
       flow_({line_, draft_, names_, expressions_}),
       values_({line_, draft_, names_, expressions_}, flow_, place_formulas_),
       blocks_({line_, draft_, names_, expressions_}) {}
@@ -83,6 +85,7 @@ void JobParser::statement() {
       {"CORRECT", [](JobParser& p) { p.each_period_.correct(); }},
       {"FOLLOW", [](JobParser& p) { p.each_period_.follow(); }},
       {"TRACK", [](JobParser& p) { p.each_period_.track(); }},
+      {"PUSH", [](JobParser& p) { p.pushing_.push(); }},
       {"SET", [](JobParser& p) { p.values_.set(); }},
       {"PULSE", [](JobParser& p) { p.values_.pulse(); }},
       {"WAIT",

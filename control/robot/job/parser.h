@@ -10,6 +10,7 @@
 #include "control/robot/job/motions.h"
 #include "control/robot/job/place_formulas.h"
 #include "control/robot/job/places.h"
+#include "control/robot/job/push_reader.h"
 #include "control/robot/job/statement.h"
 #include "control/robot/job/tools.h"
 #include "control/robot/job/values.h"
@@ -42,6 +43,7 @@ class JobParser {
   MotionReader motions_;
   EachPeriodReader each_period_;
   WeaveReader weaving_;
+  PushReader pushing_;
   FlowReader flow_;
   ValueReader values_;
   BlockReader blocks_;

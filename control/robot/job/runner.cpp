@@ -62,7 +62,7 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
     return;
   }
   values_.pass(seconds);
-  if (const auto flaw = correcting_.step(seconds, values_, signals, port); !flaw.ok()) {
+  if (const auto flaw = long_.correcting.step(seconds, values_, signals, port); !flaw.ok()) {
     fail({ErrorCode::Line}, flaw.why, 0);
     return;
   }
@@ -73,14 +73,14 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
     Next next = Next::Wait;
     if (step == nullptr) {
       next = leave(signals, port);
-    } else if (search_.ticket == 0 && !riding_.rides() && pauses_.before(jobs_)) {
+    } else if (search_.ticket == 0 && !long_.riding.rides() && !long_.pushing.on() && pauses_.before(jobs_)) {
       if (port.settled()) {
         state_ = JobState::Paused;
         line_ = step->line;
         line_job_ = jobs_.job();
       }
       return;
-    } else if (search_.ticket != 0 || !touches_world(book_, *step) || port.settled()) {
+    } else if (search_.ticket != 0 || long_.pushing.on() || !touches_world(book_, *step) || port.settled()) {
       line_ = step->line;
       line_job_ = jobs_.job();
       pauses_.note(jobs_);
@@ -116,8 +116,8 @@ JobRunner::Next JobRunner::leave(Signals& signals, MotionPort& port) noexcept {
     jobs_.finish();
     return Next::Go;
   }
-  if (port.settled() && riding_.end(port)) {
-    correcting_.reset();
+  if (port.settled() && long_.riding.end(port)) {
+    long_.correcting.reset();
     outputs_.followed.reset(signals);
     state_ = JobState::Ended;
     ++cycles_;
@@ -175,8 +175,9 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
     case Op::Tool:
     case Op::Load:
     case Op::Correct:
+    case Op::Push:
     case Op::Track:
-      next = select(step, port);
+      next = select(step, seconds, signals, port);
       break;
     case Op::Assign:
       next = done(values_.assign(step, signals, port));
@@ -207,17 +208,19 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
   return next;
 }
 
-JobRunner::Next JobRunner::select(const Step& step, MotionPort& port) noexcept {
+JobRunner::Next JobRunner::select(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept {
   bool is_done = false;
   StepValues::Flaw flaw;
   if (step.op == Op::Track) {
-    flaw = riding_.run(step, places_, port, is_done);
-  } else if (riding_.rides()) {
-    flaw = {"tool, load and correction must not change while the tool moves with a belt; end that with TRACK OFF"};
+    flaw = long_.riding.run(step, places_, port, is_done);
+  } else if (long_.riding.rides()) {
+    flaw = {"tool, load and correction must not change, nor an axis push, while the tool moves with a belt; TRACK OFF"};
   } else if (step.op == Op::Correct) {
-    flaw = correcting_.run(step, places_, port, is_done);
-  } else if (correcting_.on()) {
-    flaw = {"tool and load must not change while motions are corrected; end that with CORRECT OFF before"};
+    flaw = long_.correcting.run(step, places_, port, is_done);
+  } else if (long_.correcting.on()) {
+    flaw = {"tool and load must not change, nor an axis push, while motions are corrected; CORRECT OFF comes before"};
+  } else if (step.op == Op::Push) {
+    flaw = long_.pushing.run(step, seconds, MotionLine{jobs_.job(), step.line}.source(), signals, port, is_done);
   } else {
     is_done = step.op == Op::Tool ? port.take_tool(step.index) : port.take_load(step.index);
   }
@@ -233,8 +236,8 @@ bool JobRunner::command_motion(const Step& step, Signals& signals, MotionPort& p
     return false;
   }
   bool is_ready = false;
-  if (done(correcting_.check(step)) == Next::Wait ||
-      done(riding_.prepare(step, places_, port, is_ready)) == Next::Wait || !is_ready) {
+  if (done(long_.correcting.check(step)) == Next::Wait ||
+      done(long_.riding.prepare(step, places_, port, is_ready)) == Next::Wait || !is_ready) {
     return false;
   }
   if (in_job_ && (step.move == Move::Circle || step.move == Move::Spline)) {

@@ -10,14 +10,13 @@
 
 #include "control/robot/job/breakpoints.h"
 #include "control/robot/job/call_stack.h"
-#include "control/robot/job/correcting.h"
 #include "control/robot/job/interrupts.h"
 #include "control/robot/job/job.h"
 #include "control/robot/job/job_places.h"
+#include "control/robot/job/long_statements.h"
 #include "control/robot/job/motion_port.h"
 #include "control/robot/job/open_question.h"
 #include "control/robot/job/outputs.h"
-#include "control/robot/job/riding.h"
 #include "control/robot/job/step_motions.h"
 #include "control/robot/job/step_values.h"
 #include "control/robot/kinematics/errors.h"
@@ -33,8 +32,7 @@ class JobRunner {
         values_(book, jobs_, places_),
         motions_(book, places_, values_),
         question_(book),
-        correcting_(book),
-        riding_(book),
+        long_{Correcting(book), Riding(book), Pushing(book, values_, places_)},
         interrupts_(book) {}
   JobRunner(const JobRunner&) = delete;
   JobRunner& operator=(const JobRunner&) = delete;
@@ -95,7 +93,8 @@ class JobRunner {
   // Waits for a time, a condition or an answer.
   Next wait(const Step& step, double seconds, Signals& signals, const MotionPort& port) noexcept;
   Next output(const Step& step, Signals& signals, const MotionPort& port) noexcept;
-  Next select(const Step& step, MotionPort& port) noexcept;
+  // What changes how motions are made, and a push.
+  Next select(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept;
   Next branch(const Step& step, Signals& signals, const MotionPort& port) noexcept;
   Next call(const Step& step, Signals& signals, const MotionPort& port) noexcept;
   Next leave(Signals& signals, MotionPort& port) noexcept;
@@ -128,8 +127,7 @@ class JobRunner {
   Search search_;
   double waited_ = 0;  // s in the present step
   OpenQuestion question_;
-  Correcting correcting_;
-  Riding riding_;
+  LongStatements long_;
   MotionSettings settings_;
   int load_ = 0;
   JobOutputs outputs_;

@@ -13,7 +13,7 @@ namespace indurop::robot {
 bool JobRunner::serve_interrupts(Signals& signals, MotionPort& port) noexcept {
   interrupts_.monitor(signals);
   if (interrupts_.is(Interrupts::Phase::None)) {
-    if (!interrupts_.any_pending() || search_.met || correcting_.on() || riding_.rides()) {
+    if (!interrupts_.any_pending() || search_.met || long_.off_path()) {
       return false;  // what comes to rest for UNTIL has no path to return to, others are not on their path
     }
     if (jobs_.is_full()) {
@@ -51,8 +51,7 @@ void JobRunner::begin_interrupt() noexcept {
 
 JobRunner::Next JobRunner::leave_interrupt(MotionPort& port) noexcept {
   Fault fault;
-  if (!outputs_.on_path.any() && port.settled() && correcting_.end(port) && riding_.end(port) &&
-      port.come_back(fault)) {
+  if (!outputs_.on_path.any() && port.settled() && long_.end(port) && port.come_back(fault)) {
     interrupts_.begin_return();
   } else if (!fault.ok()) {
     fail(fault, "this job was called by ON and has ended too far from where the path was left; end it with MOVJ BACK",
@@ -142,6 +141,7 @@ bool JobRunner::continue_after(double number, std::uint32_t ticket) noexcept {
     waited_ = 0;
     question_.close();
     search_ = {};
+    long_.pushing.reset();
     return true;
   }
   return false;

@@ -21,8 +21,7 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   waited_ = 0;
   question_.close();
   search_ = {};
-  correcting_.reset();
-  riding_.reset();
+  long_.reset();
   outputs_.followed.forget();
   places_.reset();
   values_.reset();
@@ -40,8 +39,7 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
     if (before->formula < 0) {
       settings_.apply(*before);  // what would have to be computed is not known
     }
-    correcting_.skip(*before);
-    riding_.skip(*before);
+    long_.skip(*before);
     load_ = before->op == Op::Load ? before->index : load_;
   }
   jobs_.jump(static_cast<int>(first - steps.begin()));
@@ -54,6 +52,7 @@ void JobRunner::resume() noexcept {
   } else if (interrupts_.is(Interrupts::Phase::Returning)) {
     end_interrupt();
   }
+  long_.pushing.resume();
   state_ = JobState::Runs;
   message_[0] = '\0';
   pauses_.pass();
@@ -84,8 +83,7 @@ void JobRunner::forget() noexcept {
   question_.close();
   outputs_.on_path = {};
   search_ = {};
-  correcting_.reset();
-  riding_.reset();
+  long_.reset();
   outputs_.followed.forget();
   places_.reset();
   interrupts_.reset();

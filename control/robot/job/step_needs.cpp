@@ -54,6 +54,7 @@ bool touches_world(const JobBook& book, const Step& step) noexcept {
     case Op::Load:
     case Op::Weave:
     case Op::Correct:
+    case Op::Push:
     case Op::Track:
     case Op::Arm:
     case Op::Follow:

@@ -179,7 +179,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"MOVE A\n",
             "a.job:1:1: error: unknown statement 'MOVE'; known are POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, "
             "VAR, "
-            "SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SEARCH, WEAVE, CORRECT, TRACK, FOLLOW, SET, PULSE, WAIT, ASK, "
+            "SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SEARCH, WEAVE, CORRECT, TRACK, PUSH, FOLLOW, SET, PULSE, WAIT, "
+            "ASK, "
             "CALL, "
             "ON, "
             "OFF, RETURN, RAISE, "

@@ -45,6 +45,7 @@ class TorqueCell : public CommandCell {
     double period = 0.004;
     std::size_t late_out = 0, late_in = 0;
     double friction = 0;
+    std::string job{};
   };
   explicit TorqueCell(const Setup& setup) : TorqueCell(setup, heavy_cell_arm(most_torques())) {}
 
@@ -110,7 +111,7 @@ class TorqueCell : public CommandCell {
     return settings;
   }
   TorqueCell(const Setup& setup, HeavyArm heavy)
-      : CommandCell(1000 * setup.period, settings(), heavy.urdf), setup_(setup), heavy_(std::move(heavy)) {
+      : CommandCell(1000 * setup.period, settings(), heavy.urdf, setup.job), setup_(setup), heavy_(std::move(heavy)) {
     cell.stuck = true;
     for (std::size_t i = 0; i < 6; ++i) {
       in_[i].status = 0x40;
