@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The arm with masses (examples/robot_contact) in virtual time: it stops for each push of its visitor, on the right axis and
 soon, goes on, and stops for nothing else, also with other loads of its loops; it is nearer to its set points if its drives
-get the torque that a motion needs; what it holds is found in recordings; and an axis of it pushes with a torque."""
+get the torque that a motion needs; what it holds is found in recordings; and an axis of it pushes with a torque, by blocks and by a
+job."""
 
 import argparse
 import csv
@@ -87,6 +88,7 @@ def main():
     parser.add_argument("--example", type=pathlib.Path, required=True)
     parser.add_argument("--io-module", required=True)
     parser.add_argument("--blocks", required=True)
+    parser.add_argument("--wall", required=True)
     parser.add_argument("--work", type=pathlib.Path, required=True)
     cell = Cell(parser.parse_args())
     failed = []
@@ -131,6 +133,14 @@ def main():
     blocks = {name.split("::")[1]: value for name, value in last.items() if name.startswith("torque_blocks::ok_")}
     expect("an axis pushes with a torque, by the blocks of a program",
            len(blocks) > 5 and all(value in ("1", "true") for value in blocks.values()), blocks or last.keys())
+    swing = (cell.options.example / "swing.job").read_text()
+    press = "PUSH AXIS 1 TORQUE 60 Nm SPEED 20 deg/s RAMP 100 Nm/s FOR 1s TIMEOUT 10s\n"
+    last = cell.run("pressed", 15, quiet + ((f"{cell.options.example}/swing.so", cell.options.wall),
+                                            (swing[swing.index("LOOP"):], press)))[-1]
+    pressed = {name.split("::")[1]: value for name, value in last.items() if name.startswith("push_wall::")}
+    expect("an axis pushes with a torque and returns, by PUSH of a job",
+           len(pressed) == 6 and all(value in ("1", "true") for name, value in pressed.items() if name.startswith("ok_")),
+           pressed or last.keys())
     return 1 if failed else 0
 
 
