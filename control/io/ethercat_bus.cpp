@@ -294,6 +294,7 @@ std::string EthercatBus::prepare() {
   std::uint32_t logical = kFirstAddress;
   for (const ethercat::FoundSlave& slave : *found) {
     plans.push_back(ethercat::plan_of(slave.sii, logical));
+    plans.back().uses_lrw &= (slave.features & ethercat::kNoLrw) == 0;
     logical += static_cast<std::uint32_t>(plans.back().output_bytes + plans.back().input_bytes);
   }
   for (std::size_t i = 0; i < members_.size(); ++i) {

@@ -39,7 +39,7 @@ constexpr const char* kDetails = R"(A SLAVE is
   drive:start=-20,speed=220    with start, deg; speed, deg/s; acceleration, deg/s2;
                                following, deg; torque_bandwidth, Hz, with which the torque
                                follows its set point; counts of its encoder in a revolution;
-                               alias, by which a master can find it
+                               alias, by which a master can find it; lrw=0: a chip without LRW
   el2004.bin                   the device of this EEPROM
   terminals.xml:EL2004         the device of a maker's file (ESI); without :EL2004 if it has one
   drive@1.3                    any of these at port 3 of slave 1, instead of behind the slave before

@@ -97,6 +97,7 @@ class DeviceReader {
       device_.type = type->text();
       sii().identity.product = type->number("ProductCode", kLong);
       sii().identity.revision = type->number("RevisionNo", kLong);
+      sii().no_lrw = type->flag("UseLrdLwr");
     }
     sii().order = device_.type;
     sii().name = element_.english("Name");

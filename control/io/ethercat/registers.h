@@ -63,6 +63,7 @@ inline constexpr std::uint8_t kMailboxFull = 0x08;
 // Bits of kFeatures.
 inline constexpr std::uint16_t kHasClock = 0x0004;
 inline constexpr std::uint16_t kHasLongClock = 0x0008;  // of 64 bits
+inline constexpr std::uint16_t kNoLrw = 0x0200;         // it runs LRD and LWR, and leaves LRW alone
 
 // Values of kEepromConfig: who may use the EEPROM.
 inline constexpr std::uint8_t kEepromOfMaster = 0x00;

@@ -59,6 +59,7 @@ class SiiReader {
     }
     std::copy_n(bytes.begin(), general_.size(), general_.begin());
     sii_.coe_details = bytes[5];
+    sii_.no_lrw = (bytes[kSiiFlagsAt] & kSiiNoLrw) != 0;
     sii_.ebus_milliamperes = load<std::int16_t>(bytes, 12);
     return std::nullopt;
   }

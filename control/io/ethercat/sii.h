@@ -109,6 +109,7 @@ struct Sii {
   std::string order;
   std::string name;
   std::uint8_t coe_details = 0;
+  bool no_lrw = false;                 // its process data needs LRD and LWR
   std::int16_t ebus_milliamperes = 0;  // what it draws; negative: what it supplies
   std::vector<std::string> strings;    // [0] is number 1
   std::vector<FmmuUse> fmmus;
@@ -134,6 +135,9 @@ inline constexpr std::uint16_t kSiiTxPdos = 50;
 inline constexpr std::uint16_t kSiiRxPdos = 51;
 inline constexpr std::uint16_t kSiiClocks = 60;
 inline constexpr std::uint16_t kSiiEnd = 0xFFFF;
+// Flags of the category General.
+inline constexpr std::size_t kSiiFlagsAt = 11;
+inline constexpr std::uint8_t kSiiNoLrw = 0x02;
 
 // The checksum that belongs into word 7 of an image.
 std::uint8_t sii_checksum(Bytes image) noexcept;

@@ -28,6 +28,7 @@ constexpr std::string_view kDrive = "drive";
 struct DriveValues {
   config::IoAxis axis;
   double alias = 0;
+  double lrw = 1;
 };
 struct DriveValue {
   std::string_view name;
@@ -36,14 +37,15 @@ struct DriveValue {
   double most;
 };
 constexpr double kMaxReal = 1e9;
-constexpr std::array<DriveValue, 7> kDriveValues{
+constexpr std::array<DriveValue, 8> kDriveValues{
     {{"start", [](DriveValues& drive) -> double& { return drive.axis.start; }, -1e6, kMaxReal},
      {"speed", [](DriveValues& drive) -> double& { return drive.axis.speed; }, 1e-9, kMaxReal},
      {"acceleration", [](DriveValues& drive) -> double& { return drive.axis.acceleration; }, 1e-9, kMaxReal},
      {"following", [](DriveValues& drive) -> double& { return drive.axis.following; }, 1e-9, kMaxReal},
      {"torque_bandwidth", [](DriveValues& drive) -> double& { return drive.axis.torque_bandwidth; }, 0, kMaxReal},
      {"counts", [](DriveValues& drive) -> double& { return drive.axis.counts; }, 4, kMaxReal},
-     {"alias", [](DriveValues& drive) -> double& { return drive.alias; }, 1, 65535}}};
+     {"alias", [](DriveValues& drive) -> double& { return drive.alias; }, 1, 65535},
+     {"lrw", [](DriveValues& drive) -> double& { return drive.lrw; }, 0, 1}}};
 
 // Returns what is wrong with "start=-20".
 std::string read_value(std::string_view part, DriveValues& drive) {
@@ -77,8 +79,11 @@ Model drive_of(std::string_view values) {
     values.remove_prefix(std::min(comma + 1, values.size()));
   }
   const auto drive = std::make_shared<Drive>(wanted.axis);
-  return SlaveModel{Drive::slave(static_cast<std::uint16_t>(wanted.alias)),
-                    [drive](ethercat::Slave& slave) { drive->attach(slave); },
+  ethercat::SlaveConfig config = Drive::slave(static_cast<std::uint16_t>(wanted.alias));
+  if (wanted.lrw == 0) {
+    config.esc.features |= ethercat::kNoLrw;
+  }
+  return SlaveModel{std::move(config), [drive](ethercat::Slave& slave) { drive->attach(slave); },
                     [drive](ethercat::Bytes outputs, std::span<std::uint8_t> inputs, ethercat::Time now) {
                       drive->compute(outputs, inputs, now);
                     }};

@@ -31,6 +31,9 @@ void add_entries(const std::vector<ethercat::Pdo>& pdos, bool writable, ObjectDi
 ethercat::SlaveConfig Terminal::slave(const ethercat::Sii& sii, std::vector<std::uint8_t> image) {
   ethercat::SlaveConfig config;
   config.esc.eeprom = image.empty() ? ethercat::sii_image(sii) : std::move(image);
+  if (sii.no_lrw) {
+    config.esc.features |= ethercat::kNoLrw;
+  }
   ObjectDictionary& objects = config.objects;
   objects.add_number<std::uint32_t>(0x1000, 0, 0x00001389, false);  // a modular device
   objects.add(0x1008, 0, {sii.name.begin(), sii.name.end()}, false);

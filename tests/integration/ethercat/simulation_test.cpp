@@ -48,6 +48,20 @@ TEST_F(EthercatSimulation, Moves_drives_and_is_the_same_twice) {
   EXPECT_EQ(before, values());
 }
 
+// The node reads in the slave, or in its EEPROM, that it runs no LRW; the drives move as all others.
+TEST_F(EthercatSimulation, Slaves_without_lrw_are_exchanged_as_all_others) {
+  const auto run_with = [this](const std::string& slaves) {
+    const Outcome outcome = simulate(kDevices + "<simulation address='eth77' slaves='" + slaves + "'/>\n", "3s");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, testing::Not(testing::HasSubstr("working counter")));
+    EXPECT_EQ(value<std::uint8_t>("TEST_CELL::I0_quality"), 1);
+    return values();
+  };
+  const std::string usual = run_with("drive:start=5 drive:start=-20");
+  EXPECT_EQ(run_with("drive:start=5,lrw=0 drive:start=-20"), usual);
+  EXPECT_EQ(run_with("drive:start=5 drive:start=-20,lrw=0"), usual);
+}
+
 TEST_F(EthercatSimulation, Faults_come_at_their_virtual_time) {
   write("faults", "1s power_off slave=1 for=300ms\n2500ms frames_lost for=2s\n");
   const std::string simulation = "<simulation address='eth77' slaves='drive drive' script='faults'/>\n";

@@ -83,16 +83,20 @@ inline bool make_way_back() {
   return good;
 }
 
-// The slaves at the end of the cable, with these options. Faults are lines of input.
-inline std::unique_ptr<test::Program> start_drives(std::size_t drives, const std::string& pcap,
+// These slaves at the end of the cable, with these options. Faults are lines of input.
+inline std::unique_ptr<test::Program> start_slaves(const std::vector<std::string>& slaves, const std::string& pcap,
                                                    const std::vector<std::string>& options = {}) {
   std::vector<std::string> command = {ECSIM_PROGRAM, kSlaveEnd};
-  command.insert(command.end(), drives, "drive");
+  command.insert(command.end(), slaves.begin(), slaves.end());
   command.insert(command.end(), options.begin(), options.end());
   command.insert(command.end(), {"--pcap", pcap, "--script", "-"});
   auto started = std::make_unique<test::Program>(command);
   EXPECT_TRUE(started->prints("slaves at")) << started->err();
   return started;
+}
+inline std::unique_ptr<test::Program> start_drives(std::size_t drives, const std::string& pcap,
+                                                   const std::vector<std::string>& options = {}) {
+  return start_slaves(std::vector<std::string>(drives, "drive"), pcap, options);
 }
 
 class VethTest : public testing::Test {

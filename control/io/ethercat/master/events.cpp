@@ -42,6 +42,8 @@ std::string words(const Event& event) {
       return fmt::format("wrong working counter {}", event.detail);
     case Problem::NoClock:
       return "has no distributed clock, and the file wants pulses of it; remove <sync>";
+    case Problem::NoLrw:
+      return "does not support LRW, unlike the slave that was there before; start the node again";
     case Problem::BrokenFrames:
       return fmt::format("port {} received {} broken frames within a second; check the cable and the plug there",
                          event.detail >> 16U, event.detail & 0xFFFFU);

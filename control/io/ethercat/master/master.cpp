@@ -20,6 +20,12 @@ std::size_t process_size(const SlavePlan& plan) noexcept {
   return plan.output_bytes + plan.input_bytes;
 }
 
+// Of its datagrams in a frame, without that data.
+std::size_t process_overhead(const SlavePlan& plan) noexcept {
+  const bool is_pair = !plan.uses_lrw && plan.output_bytes > 0 && plan.input_bytes > 0;
+  return is_pair ? 2 * kDatagramOverhead : kDatagramOverhead;
+}
+
 bool want_clocks(const std::vector<SlavePlan>& plans) noexcept {
   return std::any_of(plans.begin(), plans.end(), [](const SlavePlan& plan) { return plan.sync.activation != 0; });
 }
@@ -79,11 +85,17 @@ void Master::plan_frames(unsigned every) {
     if (plans_[i].every != every || size == 0) {
       continue;
     }
-    if (size + kDatagramOverhead > room) {
+    const std::size_t needed = size + process_overhead(plans_[i]);
+    if (needed > room) {
       begin_frame();
     }
-    process_.back().items.push_back({static_cast<std::uint16_t>(i), 0, size});
-    room -= size + kDatagramOverhead;
+    const auto place = static_cast<std::uint16_t>(i);
+    if (plans_[i].uses_lrw) {
+      process_.back().items.push_back({place, 0, size});
+    } else {
+      process_.back().pairs.push_back({place, 0, 0});
+    }
+    room -= needed;
   }
 }
 
@@ -99,6 +111,9 @@ void Master::receive(Clock now) noexcept {
     if (std::exchange(frame.was_sent, false)) {
       for (const Item& item : frame.items) {
         data_[item.place].fresh = false;
+      }
+      for (const Pair& pair : frame.pairs) {
+        data_[pair.place].fresh = false;
       }
     }
   }
@@ -172,15 +187,34 @@ void Master::take_process(const Frame& frame, Bytes bytes, Clock now) noexcept {
     take_clock(bytes, now);
   }
   for (const Item& item : frame.items) {
-    SlaveControl& slave = slaves_[item.place];
-    Data& data = data_[item.place];
     const auto wkc = load<std::uint16_t>(bytes, item.data_at + item.size);
-    slave.check_counter(wkc, now);
-    data.fresh = slave.operates() && wkc == slave.expected_counter();
-    if (data.fresh) {
-      const auto from = bytes.subspan(item.data_at + data.outputs.size(), data.inputs.size());
-      std::copy(from.begin(), from.end(), data.inputs.begin());
-    }
+    take_inputs(item.place, wkc, bytes.subspan(item.data_at + data_[item.place].outputs.size()), now);
+  }
+  for (const Pair& pair : frame.pairs) {
+    take_pair(pair, bytes, now);
+  }
+}
+
+// Counts as a LRW does, in which a write counts twice: what a slave should add does not depend on the command then.
+void Master::take_pair(const Pair& pair, Bytes bytes, Clock now) noexcept {
+  const Data& data = data_[pair.place];
+  unsigned wkc = 0;
+  if (pair.write_at != 0) {
+    wkc += 2U * load<std::uint16_t>(bytes, pair.write_at + data.outputs.size());
+  }
+  if (pair.read_at != 0) {
+    wkc += load<std::uint16_t>(bytes, pair.read_at + data.inputs.size());
+  }
+  take_inputs(pair.place, static_cast<std::uint16_t>(wkc), bytes.subspan(pair.read_at), now);
+}
+
+void Master::take_inputs(std::size_t place, std::uint16_t wkc, Bytes bytes, Clock now) noexcept {
+  SlaveControl& slave = slaves_[place];
+  Data& data = data_[place];
+  slave.check_counter(wkc, now);
+  data.fresh = slave.operates() && wkc == slave.expected_counter();
+  if (data.fresh) {
+    std::copy_n(bytes.begin(), data.inputs.size(), data.inputs.begin());
   }
 }
 
@@ -256,6 +290,22 @@ void Master::take_clock(Bytes bytes, Clock now) noexcept {
   }
 }
 
+Bytes Master::outputs_now(std::size_t place) const noexcept {
+  const bool live = data_[place].outputs_good && slaves_[place].operates();
+  return live ? data_[place].outputs : plans_[place].safe_outputs;
+}
+
+void Master::add_pair(Frame& frame, Pair& pair) noexcept {
+  const SlavePlan& plan = plans_[pair.place];
+  if (plan.output_bytes > 0) {
+    pair.write_at = frame.builder.add(Command::Lwr, frame.index, plan.logical, outputs_now(pair.place)).value_or(0);
+  }
+  if (plan.input_bytes > 0) {
+    const auto inputs_at = static_cast<std::uint32_t>(plan.logical + plan.output_bytes);
+    pair.read_at = frame.builder.add(Command::Lrd, frame.index, inputs_at, plan.input_bytes).value_or(0);
+  }
+}
+
 void Master::send_process(Clock now) noexcept {
   const std::uint64_t cycle = cycles_++;
   for (Frame& frame : process_) {
@@ -270,14 +320,14 @@ void Master::send_process(Clock now) noexcept {
       add_clock(frame, now);
     }
     for (Item& item : frame.items) {
-      const SlavePlan& plan = plans_[item.place];
-      const Data& data = data_[item.place];
-      const auto at = frame.builder.add(Command::Lrw, frame.index, plan.logical, item.size);
+      const auto at = frame.builder.add(Command::Lrw, frame.index, plans_[item.place].logical, item.size);
       item.data_at = at.value_or(0);
       if (at) {
-        const bool live = data.outputs_good && slaves_[item.place].operates();
-        frame.builder.fill(*at, live ? data.outputs : plan.safe_outputs);
+        frame.builder.fill(*at, outputs_now(item.place));
       }
+    }
+    for (Pair& pair : frame.pairs) {
+      add_pair(frame, pair);
     }
     send_frame(frame);
   }

@@ -68,9 +68,15 @@ class Master {
     std::size_t data_at = 0;
     std::size_t size = 0;
   };
+  struct Pair {  // the process data of a slave without LRW: where it is in a frame, 0 if it has none
+    std::uint16_t place = 0;
+    std::size_t write_at = 0;
+    std::size_t read_at = 0;
+  };
   struct Frame {
     FrameBuilder builder{kMasterMac};
     std::vector<Item> items;
+    std::vector<Pair> pairs;
     unsigned every = 1;     // of process data: sent in cycles whose number divided by this
     unsigned phase = 0;     // leaves this rest
     bool was_sent = false;  // in the last cycle
@@ -91,10 +97,14 @@ class Master {
   void take_frames(Clock now) noexcept;
   void take_frame(Bytes bytes, Clock now) noexcept;
   void take_process(const Frame& frame, Bytes bytes, Clock now) noexcept;
+  void take_pair(const Pair& pair, Bytes bytes, Clock now) noexcept;
+  void take_inputs(std::size_t place, std::uint16_t wkc, Bytes bytes, Clock now) noexcept;
   void take_service(const Frame& frame, Bytes bytes, Clock now) noexcept;
   [[nodiscard]] Frame* frame_of(std::uint8_t index) noexcept;
   void expire(Clock now) noexcept;
   void send_process(Clock now) noexcept;
+  void add_pair(Frame& frame, Pair& pair) noexcept;
+  [[nodiscard]] Bytes outputs_now(std::size_t place) const noexcept;
   void add_clock(Frame& frame, Clock now) noexcept;
   void take_clock(Bytes bytes, Clock now) noexcept;
   void send_service(Clock now) noexcept;

@@ -90,6 +90,7 @@ SlavePlan plan_of(const Sii& sii, std::uint32_t logical) {
   plan.name = sii.name;
   plan.identity = sii.identity;
   plan.logical = logical;
+  plan.uses_lrw = !sii.no_lrw;
   plan.identity.serial = 0;
   const bool has_mailbox = sii.mailbox.receive_size > 0 && sii.sync_managers.size() >= kMailboxManagers;
   const std::size_t first = has_mailbox ? kMailboxManagers : 0;

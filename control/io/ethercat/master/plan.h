@@ -41,6 +41,7 @@ struct SlavePlan {
   std::size_t output_bytes = 0;
   std::size_t input_bytes = 0;
   std::vector<std::uint8_t> safe_outputs;  // sent while the application gives none
+  bool uses_lrw = true;                    // no: its process data goes in a LWR and a LRD, in the same frame
   std::vector<StartObject> start_objects;
   unsigned every = 1;  // its process data is exchanged once in so many cycles
   SyncPlan sync;

@@ -58,6 +58,7 @@ enum class Problem : std::uint8_t {
   WrongCounter,   // working counter that came
   EmergencySent,  // error code
   NoClock,
+  NoLrw,          // was exchanged for one that does not run the command that its process data is planned with
   BrokenFrames,   // number of the port * 65536 + how many in the last second
   LostLink,       // the same of its link
   CopyBegun,      // gets bits of another slave: the place of that one

@@ -79,11 +79,13 @@ FoundSlave Scan::identify(std::size_t place) {
   FoundSlave found;
   const auto alias = requester_.read(place, reg::kAlias, 2);
   const auto state = requester_.read(place, reg::kAlStatus, 2);
-  if (!alias || !state) {
+  const auto features = requester_.read(place, reg::kFeatures, 2);
+  if (!alias || !state || !features) {
     found.problem = "it does not answer any more";
     return found;
   }
   found.alias = load<std::uint16_t>(*alias, 0);
+  found.features = load<std::uint16_t>(*features, 0);
   found.state = static_cast<AlState>((*state)[0] & kAlStateMask);
   const auto image = read_image(place);
   if (!image) {

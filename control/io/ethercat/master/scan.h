@@ -19,6 +19,7 @@ namespace indurop::io::ethercat {
 struct FoundSlave {
   std::uint16_t alias = 0;
   AlState state = AlState::None;
+  std::uint16_t features = 0;  // of its chip, as the register says
   Sii sii;
   std::string problem;  // why its EEPROM could not be read; empty: it was
 };

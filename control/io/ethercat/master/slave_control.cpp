@@ -14,6 +14,7 @@ constexpr Clock kAnswerLimit = milliseconds(50);  // without an answer, the slav
 constexpr Clock kFindAgain = milliseconds(20);
 constexpr Clock kRefusedPause = milliseconds(200);  // for what a new try hardly mends
 constexpr std::size_t kStationBytes = 4;            // station address, alias
+constexpr std::size_t kChannelBytes = 6;            // from their number to the features
 constexpr std::size_t kMaxChannels = 16;            // FMMUs, SyncManagers
 constexpr std::array<std::uint8_t, kMaxChannels * kFmmuBytes> kZeros{};
 
@@ -83,7 +84,7 @@ std::optional<Query> SlaveControl::query(Clock now) noexcept {
       store<std::uint16_t>(word_, 0, station);
       return Query{Command::Apwr, address_of(position(place_), reg::kStation), word_, 0};
     case Step::Channels:
-      return Query{Command::Fprd, address_of(station, reg::kFmmuCount), {}, 2};
+      return Query{Command::Fprd, address_of(station, reg::kFmmuCount), {}, kChannelBytes};
     case Step::ClearFmmus:
       return Query{Command::Fpwr, address_of(station, reg::kFmmu), Bytes(kZeros).first(fmmus_ * kFmmuBytes), 0};
     case Step::ClearManagers:
@@ -171,6 +172,7 @@ void SlaveControl::finish_step(Bytes data, Clock now) noexcept {
     case Step::Channels:
       fmmus_ = std::min<std::size_t>(data[0], kMaxChannels);
       managers_ = std::min<std::size_t>(data[1], kMaxChannels);
+      has_lrw_ = (load<std::uint16_t>(data, reg::kFeatures - reg::kFmmuCount) & kNoLrw) == 0;
       enter(Step::ClearFmmus, now);
       return;
     case Step::ClearFmmus:
@@ -254,6 +256,8 @@ void SlaveControl::check_identity(Bytes data, bool is_answered, Clock now) noexc
       (wanted.revision != 0 && identity_.revision != wanted.revision) ||
       (wanted.serial != 0 && identity_.serial != wanted.serial)) {
     fail(Problem::WrongIdentity, identity_.product, kRefusedPause, now);
+  } else if (plan_.uses_lrw && !has_lrw_) {
+    fail(Problem::NoLrw, 0, kRefusedPause, now);
   } else {
     enter(Step::Release, now);
   }

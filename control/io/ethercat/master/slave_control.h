@@ -49,7 +49,7 @@ class SlaveControl {
     Pause,
     Find,
     Address,
-    Channels,  // how many FMMUs and SyncManagers it has
+    Channels,  // how many FMMUs and SyncManagers it has, and whether it runs LRW
     ClearFmmus,
     ClearManagers,
     Identity,
@@ -90,6 +90,7 @@ class SlaveControl {
   std::array<std::uint8_t, 2> word_{};  // that a query writes
   std::size_t fmmus_ = 0;
   std::size_t managers_ = 0;
+  bool has_lrw_ = true;
   EepromReader eeprom_;
   std::uint16_t eeprom_word_ = 0;
   Identity identity_;

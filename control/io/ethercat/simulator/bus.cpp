@@ -152,7 +152,7 @@ void SimulatedBus::spoil_counter(std::span<std::uint8_t> frame, std::size_t slav
   FrameReader reader(frame);
   Datagram datagram;
   while (reader.next(datagram)) {
-    if (datagram.command == Command::Lrw && datagram.address == logical && datagram.wkc > 0) {
+    if (is_logical(datagram.command) && datagram.address == logical && datagram.wkc > 0) {
       store<std::uint16_t>(frame, datagram.wkc_at(), static_cast<std::uint16_t>(datagram.wkc - 1));
     }
   }

@@ -135,7 +135,8 @@ std::vector<std::uint8_t> sii_image(const Sii& sii) {
   writer.put_text(sii.name);
   writer.put_zeros(1);
   writer.put(sii.coe_details);
-  writer.put_zeros(6);
+  writer.put_zeros(5);
+  writer.put(sii.no_lrw ? kSiiNoLrw : std::uint8_t{0});
   writer.put(sii.ebus_milliamperes);
   writer.put_zeros(18);
   writer.end();

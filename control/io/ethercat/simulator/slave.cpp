@@ -160,6 +160,9 @@ void Slave::access(const Datagram& datagram, std::span<std::uint8_t> frame, bool
 }
 
 void Slave::access_logical(const Datagram& datagram, std::span<std::uint8_t> frame, Time now) {
+  if (datagram.command == Command::Lrw && (esc_.value<std::uint16_t>(reg::kFeatures) & kNoLrw) != 0) {
+    return;  // it passes, as through a cable
+  }
   const auto data = frame.subspan(datagram.data_at(), datagram.length);
   unsigned count = 0;
   std::array<std::uint8_t, kMaxFrame> copy{};

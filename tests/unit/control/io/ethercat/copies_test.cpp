@@ -32,7 +32,7 @@ Sii slave_sii() {
   return sii;
 }
 
-std::vector<SlavePlan> plans(const std::vector<unsigned>& every) {
+std::vector<SlavePlan> plans_of_slaves(const std::vector<unsigned>& every) {
   std::vector<SlavePlan> plans;
   for (std::size_t i = 0; i < every.size(); ++i) {
     plans.push_back(plan_of(slave_sii(), static_cast<std::uint32_t>(0x10000 + 0x100 * i)));
@@ -44,11 +44,12 @@ std::vector<SlavePlan> plans(const std::vector<unsigned>& every) {
 // Slaves whose inputs are new random bytes in each tick, and a master between them.
 class CopyPlant {
  public:
-  // `every`: of each slave, how many cycles are between two exchanges; `fail_safe`: in each byte of the targets.
+  // `every`: of each slave, how many cycles are between two exchanges; `fail_safe`: in each byte of the targets. Slaves
+  // whose bit in the seed is set have no LRW.
   CopyPlant(const std::vector<unsigned>& every, std::vector<Copy> copies, unsigned seed = 1, std::uint8_t fail_safe = 0)
-      : copies_(std::move(copies)), master_(bus_, plans(every), kTick), random_(seed) {
+      : copies_(std::move(copies)), master_(bus_, without_lrw(plans_of_slaves(every), seed), kTick), random_(seed) {
     for (std::size_t i = 0; i < every.size(); ++i) {
-      SlaveConfig config = drive_config();
+      SlaveConfig config = config_of(master_.plan(i));
       config.esc.eeprom = sii_image(slave_sii());
       bus_.segment().add(config, [this](Bytes /*outputs*/, std::span<std::uint8_t> inputs) {
         std::generate(inputs.begin(), inputs.end(), [this] { return static_cast<std::uint8_t>(random_()); });

@@ -68,10 +68,11 @@ bool explains(const Fault& fault, const Event& event) {
   return false;
 }
 
-// A plant whose application moves targets within their limits.
+// A plant whose application moves targets within their limits. `without`: slaves without LRW, a bit for each.
 class FaultyPlant {
  public:
-  explicit FaultyPlant(std::size_t count) : plant(count, synchronous_plans(count)) {
+  explicit FaultyPlant(std::size_t count, unsigned without = 0)
+      : plant(count, without_lrw(synchronous_plans(count), without)) {
     plant.run_until_all_operate(2000);
     plant.run(20);
     plant.events().clear();
@@ -193,7 +194,7 @@ class FaultyPlant {
 TEST(Faults, Each_kind_is_named_and_everything_recovers) {
   std::mt19937 random(3);
   for (std::uint8_t kind = 0; kind < kFaultKinds; ++kind) {
-    FaultyPlant sut(3);
+    FaultyPlant sut(3, kind);
     const Fault fault =
         random_fault(random, 3, static_cast<FaultKind>(kind), sut.plant.now() + std::chrono::milliseconds(5));
     sut.plant.bus().add_fault(fault);
@@ -258,7 +259,7 @@ TEST(Faults, Random_scripts_recover_without_an_output_beyond_its_limits) {
   for (unsigned seed = 0; seed < 500 && !testing::Test::HasFailure(); ++seed) {
     std::mt19937 random(seed);
     const std::size_t slaves = 1 + random() % 4;
-    FaultyPlant sut(slaves);
+    FaultyPlant sut(slaves, seed);
     const unsigned count = 1 + static_cast<unsigned>(random() % 3);
     std::vector<Fault> faults;
     for (unsigned i = 0; i < count; ++i) {
@@ -287,7 +288,7 @@ TEST(Faults, Random_scripts_recover_without_an_output_beyond_its_limits) {
 TEST(Faults, Scripts_that_overlap_recover_too) {
   for (unsigned seed = 0; seed < 100 && !testing::Test::HasFailure(); ++seed) {
     std::mt19937 random(seed + 1000);
-    FaultyPlant sut(3);
+    FaultyPlant sut(3, seed);
     for (unsigned i = 0; i < 6; ++i) {
       sut.plant.bus().add_fault(random_fault(random, 3, static_cast<FaultKind>(random() % kFaultKinds),
                                              sut.plant.now() + std::chrono::milliseconds(1 + random() % 200)));

@@ -11,7 +11,7 @@
 namespace indurop::io::ethercat {
 namespace {
 
-// Counts the process data of each slave by its logical address.
+// Counts process data by logical address.
 class CountingLink final : public Link {
  public:
   explicit CountingLink(SimulatedBus& bus) : bus_(bus) {}
@@ -19,7 +19,7 @@ class CountingLink final : public Link {
     FrameReader reader(frame);
     Datagram datagram;
     while (reader.next(datagram)) {
-      if (datagram.command == Command::Lrw) {
+      if (is_logical(datagram.command)) {
         ++exchanges[datagram.address];
       }
     }
@@ -35,11 +35,11 @@ class CountingLink final : public Link {
 
 class Rates {
  public:
-  explicit Rates(const std::vector<unsigned>& every) : applied(every.size()) {
-    auto plans = drive_plans(every.size());
+  explicit Rates(const std::vector<unsigned>& every, unsigned without = 0) : applied(every.size()) {
+    auto plans = without_lrw(drive_plans(every.size()), without);
     for (std::size_t i = 0; i < every.size(); ++i) {
       plans[i].every = every[i];
-      bus.segment().add(drive_config(), [this, i](Bytes outputs, std::span<std::uint8_t> inputs) {
+      bus.segment().add(config_of(plans[i]), [this, i](Bytes outputs, std::span<std::uint8_t> inputs) {
         if (!outputs.empty()) {
           applied[i].assign(outputs.begin(), outputs.end());
           reflect(outputs, inputs);
@@ -85,7 +85,7 @@ TEST(Rates, Each_slave_is_exchanged_once_in_its_number_of_cycles) {
     for (int i = 0; i < 6; ++i) {
       every.push_back(1 + static_cast<unsigned>(random() % 6));
     }
-    Rates sut(every);
+    Rates sut(every, static_cast<unsigned>(random()));
     sut.start();
     sut.link.exchanges.clear();
     constexpr unsigned kCycles = 60;  // a multiple of each
@@ -93,13 +93,16 @@ TEST(Rates, Each_slave_is_exchanged_once_in_its_number_of_cycles) {
       sut.tick();
     }
     for (std::size_t i = 0; i < every.size(); ++i) {
-      EXPECT_EQ(sut.link.exchanges[sut.master->plan(i).logical], kCycles / every[i]);
+      const SlavePlan& plan = sut.master->plan(i);
+      EXPECT_EQ(sut.link.exchanges[plan.logical], kCycles / every[i]);
+      const auto inputs_at = static_cast<std::uint32_t>(plan.logical + plan.output_bytes);
+      EXPECT_EQ(sut.link.exchanges[inputs_at], plan.uses_lrw ? 0 : kCycles / every[i]);
     }
   }
 }
 
 TEST(Rates, Values_arrive_with_the_next_exchange_and_stay_good_until_then) {
-  Rates sut({1, 4, 10});
+  Rates sut({1, 4, 10}, 0b010);
   sut.set_outputs(1);
   sut.start();
   for (std::uint8_t value = 2; value < 60; ++value) {

@@ -13,9 +13,11 @@ namespace {
 
 class RingPlant {
  public:
-  explicit RingPlant(std::size_t count, std::optional<std::size_t> cut = std::nullopt) {
-    for (std::size_t i = 0; i < count; ++i) {
-      bus_.segment().add(drive_config(), [](Bytes outputs, std::span<std::uint8_t> inputs) {
+  // `without`: slaves without LRW, a bit for each.
+  explicit RingPlant(std::size_t count, std::optional<std::size_t> cut = std::nullopt, unsigned without = 0) {
+    auto plans = without_lrw(drive_plans(count), without);
+    for (const SlavePlan& plan : plans) {
+      bus_.segment().add(config_of(plan), [](Bytes outputs, std::span<std::uint8_t> inputs) {
         if (!outputs.empty()) {
           reflect(outputs, inputs);
         }
@@ -25,7 +27,7 @@ class RingPlant {
     if (cut) {
       bus_.segment().set_cable(*cut, false);
     }
-    master_ = std::make_unique<Master>(*link_, drive_plans(count), kTick);
+    master_ = std::make_unique<Master>(*link_, std::move(plans), kTick);
   }
   void tick() {
     now_ += kTick;
@@ -95,20 +97,22 @@ TEST(Ring, Slaves_work_as_on_a_line) {
 
 TEST(Ring, A_cut_at_any_place_is_named_and_loses_no_tick_nor_does_its_end) {
   constexpr std::size_t kSlaves = 4;
-  RingPlant sut(kSlaves);
-  ASSERT_TRUE(sut.starts()) << sut.story();
-  for (std::size_t place = 0; place <= kSlaves; ++place) {
-    SCOPED_TRACE(place);
-    sut.bus().add_fault({FaultKind::CableCut, sut.now() + 5 * kTick, 200 * kTick, place, 0});
-    EXPECT_EQ(sut.lost(100), 0U);
-    ASSERT_TRUE(sut.link().cut());
-    EXPECT_EQ(sut.link().cut()->before, place);
-    EXPECT_EQ(sut.link().cut()->behind, place);
-    EXPECT_EQ(sut.master().slaves_seen(), kSlaves);
-    EXPECT_EQ(sut.lost(300), 0U);
-    EXPECT_FALSE(sut.link().cut());
+  for (const unsigned without : {0b0000U, 0b0110U, 0b1111U}) {
+    RingPlant sut(kSlaves, std::nullopt, without);
+    ASSERT_TRUE(sut.starts()) << sut.story();
+    for (std::size_t place = 0; place <= kSlaves; ++place) {
+      SCOPED_TRACE(testing::Message() << "cut " << place << ", without LRW " << without);
+      sut.bus().add_fault({FaultKind::CableCut, sut.now() + 5 * kTick, 200 * kTick, place, 0});
+      EXPECT_EQ(sut.lost(100), 0U);
+      ASSERT_TRUE(sut.link().cut());
+      EXPECT_EQ(sut.link().cut()->before, place);
+      EXPECT_EQ(sut.link().cut()->behind, place);
+      EXPECT_EQ(sut.master().slaves_seen(), kSlaves);
+      EXPECT_EQ(sut.lost(300), 0U);
+      EXPECT_FALSE(sut.link().cut());
+    }
+    EXPECT_EQ(sut.master().counters().lost, 0U);
   }
-  EXPECT_EQ(sut.master().counters().lost, 0U);
 }
 
 TEST(Ring, A_bus_that_is_cut_before_it_starts_starts) {
@@ -155,7 +159,7 @@ TEST(Ring, A_slave_behind_a_cut_comes_back) {
 
 TEST(Ring, Random_cuts_and_losses_of_power_are_survived) {
   std::mt19937 random(5);
-  RingPlant sut(6);
+  RingPlant sut(6, std::nullopt, 0b101010);
   ASSERT_TRUE(sut.starts()) << sut.story();
   for (int round = 0; round < 60; ++round) {
     SCOPED_TRACE(round);

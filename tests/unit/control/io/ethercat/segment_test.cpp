@@ -165,6 +165,38 @@ TEST_F(SegmentTest, Logical_addresses_reach_process_data) {
   EXPECT_THAT(part, testing::ElementsAre(6, 7));
 }
 
+TEST_F(SegmentTest, A_chip_without_lrw_leaves_it_alone_and_runs_lrd_and_lwr) {
+  SlaveConfig config = drive_config();
+  config.esc.features |= kNoLrw;
+  Slave& slave = segment_.add(std::move(config), reflect);
+  master_.write<std::uint16_t>(Command::Apwr, address_of(0, reg::kStation), station(0));
+  bring_to_op(0);
+  set_fmmu(0, 0, 0x10000, kDriveOutputs, 2);
+  set_fmmu(0, 1, 0x10006, kDriveInputs, 1);
+  Data outputs = {1, 2, 3, 4, 5, 6};
+  EXPECT_EQ(master_.send(Command::Lwr, 0x10000, outputs), 1);
+  const auto memory = [&slave] {
+    const auto bytes = slave.esc().memory(reg::kMemory, 0x1000);
+    return Data(bytes.begin(), bytes.end());
+  };
+  const Data before = memory();
+  Data both = {11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22};
+  const Data sent = both;
+  EXPECT_EQ(master_.send(Command::Lrw, 0x10000, both), 0);
+  EXPECT_EQ(both, sent);
+  EXPECT_EQ(memory(), before);
+  Data inputs(6);
+  EXPECT_EQ(master_.send(Command::Lrd, 0x10006, inputs), 1);
+  EXPECT_EQ(inputs, outputs);
+  // It does not trigger the watchdog either.
+  for (int i = 0; i < 11; ++i) {
+    master_.wait(Time(10'000'000));
+    EXPECT_EQ(master_.send(Command::Lrw, 0x10000, both), 0);
+  }
+  EXPECT_EQ(master_.read<std::uint16_t>(Command::Fprd, of(0, reg::kAlStatus)), 0x14);
+  EXPECT_EQ(code(0), kAlSyncWatchdog);
+}
+
 TEST_F(SegmentTest, Outputs_that_stay_away_end_operation) {
   add(1);
   bring_to_op(0);

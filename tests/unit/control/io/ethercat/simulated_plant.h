@@ -30,6 +30,23 @@ inline std::vector<SlavePlan> drive_plans(std::size_t count) {
   return plans;
 }
 
+// The simulated slave to one of these plans.
+inline SlaveConfig config_of(const SlavePlan& plan) {
+  SlaveConfig config = drive_config();
+  if (!plan.uses_lrw) {
+    config.esc.features |= kNoLrw;
+  }
+  return config;
+}
+
+// Plans for slaves of which some do not run LRW: those whose bit is set.
+inline std::vector<SlavePlan> without_lrw(std::vector<SlavePlan> plans, std::uint64_t slaves) {
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    plans[i].uses_lrw = (slaves >> i & 1U) == 0;
+  }
+  return plans;
+}
+
 inline bool all_operate(const Master& master) {
   for (std::size_t i = 0; i < master.size(); ++i) {
     if (!master.slave(i).operates()) {
@@ -43,7 +60,7 @@ class Plant {
  public:
   explicit Plant(std::size_t count, std::vector<SlavePlan> plans) : applied_(count) {
     for (std::size_t i = 0; i < count; ++i) {
-      bus_.segment().add(drive_config(), [this, i](Bytes outputs, std::span<std::uint8_t> inputs) {
+      bus_.segment().add(config_of(plans[i]), [this, i](Bytes outputs, std::span<std::uint8_t> inputs) {
         if (!outputs.empty()) {
           applied_[i].assign(outputs.begin(), outputs.end());
           reflect(outputs, inputs);
