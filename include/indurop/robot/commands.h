@@ -15,7 +15,7 @@ inline constexpr std::size_t kCommands = 32;  // slots
 inline constexpr std::size_t kCams = 4;
 inline constexpr std::size_t kCamPoints = 64;
 inline constexpr std::size_t kBelts = 2;
-inline constexpr std::size_t kProfiles = 4;
+inline constexpr std::size_t kProfiles = 8;
 inline constexpr std::size_t kProfilePoints = 64;
 
 // The effect of a command on those before it.
