@@ -30,7 +30,7 @@ THIRD_PARTY = {
     "gtest": ("gtest/", "gmock/"),
     "mosquitto": ("mosquitto.h",),
     "benchmark": ("benchmark/",),
-    "ros": ("ros/", "std_msgs/"),
+    "ros": ("ros/", "std_msgs/", "std_srvs/", "sensor_msgs/", "trajectory_msgs/", "control_msgs/", "actionlib/", "topic_tools/"),
 }
 POSIX_FOLDERS = ("sys/", "linux/", "net/", "netinet/", "arpa/", "asm/", "bits/", "valgrind/", "sanitizer/")
 INCLUDE = re.compile(r'^\s*#\s*include(?:_next)?\s*([<"])([^">]+)[">]', re.MULTILINE)
