@@ -2,6 +2,7 @@
 #include "history/recording/contents.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -108,7 +109,10 @@ class SummaryReader {
       case Opcode::ChunkIndex: {
         McapChunkIndex index;
         const bool good = read_record(content, index) && lies_in_data(index.offset, index.length);
-        to_.segments.push_back({index.offset, index.length, true, index.start_ns, index.end_ns});
+        Segment& chunk =
+            to_.segments.emplace_back(Segment{index.offset, index.length, true, index.start_ns, index.end_ns, {}});
+        std::transform(index.index_offsets.begin(), index.index_offsets.end(), std::back_inserter(chunk.channels),
+                       [](const auto& entry) { return entry.first; });
         return good;
       }
       case Opcode::AttachmentIndex: {

@@ -46,15 +46,20 @@ void McapReader::seek(std::uint64_t log_time_ns) {
   last_.reset();
 }
 
+Result<LoadedSegment, Problem> McapReader::load(const Segment& segment) const {
+  auto loaded = recording::load(file_, segment);
+  if (loaded && !loaded->messages.empty() && loaded->messages.front().log_time_ns < segment.start_ns) {
+    return file_.problem(segment.offset, "a chunk with older messages than the summary says");
+  }
+  return loaded;
+}
+
 Result<void, Problem> McapReader::open_segment(const Segment& segment) {
-  auto loaded = load(file_, segment);
+  auto loaded = load(segment);
   if (!loaded) {
     return std::move(loaded).error();
   }
   auto& messages = loaded->messages;
-  if (!messages.empty() && messages.front().log_time_ns < segment.start_ns) {
-    return file_.problem(segment.offset, "a chunk with older messages than the summary says");
-  }
   if (loaded->records.size > kMaxOpenBytes - open_bytes_) {
     return file_.problem(segment.offset, fmt::format("a chunk is skipped: those of its time together have more than "
                                                      "the {} bytes that are read at once",

@@ -46,6 +46,11 @@ class McapReader {
   // next() continues with the first message that is not older than this.
   void seek(std::uint64_t log_time_ns);
 
+  // Returns the chunks, and other parts, in the order in which they begin.
+  [[nodiscard]] const std::vector<Segment>& segments() const noexcept { return by_time_; }
+  // Reads one of them. Errors: it is damaged.
+  [[nodiscard]] Result<LoadedSegment, base::Problem> load(const Segment& segment) const;
+
   // Returns the bytes of an attachment. Errors: wrong CRC, or not as the summary says.
   [[nodiscard]] Result<Bytes, base::Problem> attachment(const McapAttachmentIndex& index) const;
   [[nodiscard]] Result<McapMetadata, base::Problem> metadata(const McapMetadataIndex& index) const;

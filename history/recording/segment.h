@@ -21,6 +21,7 @@ struct Segment {
   bool is_chunk = false;
   std::uint64_t start_ns = 0;  // of the log times
   std::uint64_t end_ns = 0;
+  std::vector<std::uint16_t> channels = {};  // those with messages in it; empty: not known
 };
 
 struct LoadedSegment {

@@ -168,11 +168,11 @@ class Walk {
         return;
       }
     }
-    to_.segments.push_back({at_, length, false, time, time});
+    to_.segments.push_back({at_, length, false, time, time, {}});
   }
 
   void take_chunk(std::uint64_t length) {
-    Segment segment{at_, length, true, 0, 0};
+    Segment segment{at_, length, true, 0, 0, {}};
     auto loaded = load(file_, segment);
     if (!loaded) {
       to_.damages.push_back(std::move(loaded).error());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the recording before the replay: which values are known from its beginning on.
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "history/recording/cdr.h"
@@ -9,7 +11,7 @@
 namespace indurop::node {
 
 // A value that is recorded for the first time, and as unchanged, was present from the first run of the recording on: it
-// is known from the beginning. Reads until all values are known, at worst to the end.
+// is known from the beginning. Reads from where the replay begins until all values are known, at worst to the end.
 void ReplayedModules::look_ahead() {
   struct Runs {
     bool any = false;
@@ -17,12 +19,19 @@ void ReplayedModules::look_ahead() {
     std::uint64_t next = 0;
   };
   std::vector<Runs> runs(modules_.size());
-  std::size_t unrecorded = 0;
-  for (const auto& module : modules_) {
-    unrecorded += module->runs ? module->known.size() : 0;
-  }
   auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, store_);
-  while (recorded && unrecorded > 0) {
+  if (!recorded) {
+    return;  // reported when it is replayed
+  }
+  recorded->seek(begin_ns_);
+  const auto may_follow = [&](const KnownValue& known) {
+    return !known.ever_recorded && recorded->has_values_of(known.variable);
+  };
+  std::ptrdiff_t unrecorded = 0;
+  for (const auto& module : modules_) {
+    unrecorded += module->runs ? std::count_if(module->known.begin(), module->known.end(), may_follow) : 0;
+  }
+  while (unrecorded > 0) {
     auto item = recorded->next();
     if (!item) {
       continue;  // known when it is replayed
@@ -39,7 +48,7 @@ void ReplayedModules::look_ahead() {
       }
     } else if (const auto* value = std::get_if<RecordedValue>(&**item); value != nullptr) {
       ReplayedModule* const module = of_recording(value->words.module);
-      unrecorded -= module != nullptr && learn_early(*value, *module, runs[module->index].gap) ? 1U : 0U;
+      unrecorded -= module != nullptr && learn_early(*value, *module, runs[module->index].gap) ? 1 : 0;
     }
   }
   for (const auto& module : modules_) {

@@ -8,6 +8,7 @@
 
 #include "history/explain/facts_json.h"
 #include "history/recorder/sources.h"
+#include "history/recorder/tick_search.h"
 #include "history/recording/omg_idl.h"
 
 namespace indurop::node {
@@ -49,6 +50,9 @@ Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::str
   prefix_ = sources.all[*source].prefix;
   real_minus_node_ns_ = sources.all[*source].number("real_minus_node_ns");
   format_ = std::max<std::int64_t>(sources.all[*source].number("format"), 1);
+  const recording::TextMap end = recorder::last_metadata(reader_, prefix_ + recorder::kEndMetadata);
+  const auto lost = end.find("lost_runs");
+  without_gaps_ = lost != end.end() && lost->second == "0";
   std::string changed;
   for (const auto& [id, place] : sources.channels) {
     if (place.source != *source) {
@@ -92,6 +96,36 @@ bool RecordedRuns::has_keyframes(const std::string& module) const {
   return std::any_of(channels.begin(), channels.end(), [&](const auto& entry) { return entry.second.topic == topic; });
 }
 
+std::optional<std::uint64_t> RecordedRuns::time_of_tick(std::uint64_t tick) const {
+  return recorder::time_of_tick(reader_, runs_channel_, tick);
+}
+
+std::pair<std::uint64_t, std::uint64_t> RecordedRuns::span_ns() const {
+  const auto [first, last] = reader_.contents().span_ns();
+  return {static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(last)};
+}
+
+std::vector<RecordedRuns::EarlierValue> RecordedRuns::values_before(std::uint64_t log_time_ns,
+                                                                    const std::set<VariableOf>& wanted) const {
+  std::set<recording::MessageKey> keys;
+  for (const auto& [channel, variable] : variables_) {
+    for (auto one = wanted.lower_bound({variable, 0}); one != wanted.end() && one->first == variable; ++one) {
+      keys.insert({channel, one->second});
+    }
+  }
+  const auto module_of = [](std::uint32_t sequence) { return recorder::from_sequence(sequence).module; };
+  std::vector<EarlierValue> values;
+  for (auto& [key, message] : recording::last_messages(reader_, log_time_ns, std::move(keys), module_of)) {
+    values.push_back({variables_.at(key.first), key.second, std::move(message.bytes)});
+  }
+  return values;
+}
+
+bool RecordedRuns::has_values_of(std::uint32_t variable) const noexcept {
+  return std::any_of(variables_.begin(), variables_.end(),
+                     [variable](const auto& entry) { return entry.second == variable; });
+}
+
 explain::Facts RecordedRuns::facts() const {
   explain::Facts facts;
   for (const recording::McapAttachmentIndex& index : reader_.contents().attachments) {
@@ -113,6 +147,7 @@ Result<std::optional<RecordedRuns::Item>, Problem> RecordedRuns::next() {
       return std::optional<Item>();
     }
     const recording::McapMessage& one = **message;
+    time_ns_ = one.log_time_ns;
     if (one.channel == runs_channel_) {
       auto run = recorder::run_from_cdr(one.data.view);
       if (!run) {

@@ -9,8 +9,10 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -19,6 +21,7 @@
 #include "history/explain/facts.h"
 #include "history/recorder/run_words.h"
 #include "history/recorder/sources.h"
+#include "history/recording/last_messages.h"
 #include "history/recording/mcap_reader.h"
 #include "store/vars/store.h"
 
@@ -67,6 +70,30 @@ class RecordedRuns {
   using Item = std::variant<RecordedValue, RecordedRun, RecordedClock, RecordedAnswer, RecordedKeyframe>;
   Result<std::optional<Item>, base::Problem> next();
 
+  // The log time of what next() returned last.
+  [[nodiscard]] std::uint64_t time_ns() const noexcept { return time_ns_; }
+  // next() continues with the first item that is not older than this log time.
+  void seek(std::uint64_t log_time_ns) { reader_.seek(log_time_ns); }
+  // Returns the log time of the first run of this tick or a later one; nullopt: there is none.
+  [[nodiscard]] std::optional<std::uint64_t> time_of_tick(std::uint64_t tick) const;
+  // Log times of the first and the last item.
+  [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> span_ns() const;
+
+  // The last value of a variable before a time, as a module of the recording knew it.
+  struct EarlierValue {
+    std::uint32_t variable = 0;
+    std::uint32_t module = 0;  // kAnyModule: the one that was recorded last
+    std::vector<std::uint8_t> cdr;
+  };
+  static constexpr std::uint32_t kAnyModule = recording::kAnyPart;
+  using VariableOf = std::pair<std::uint32_t, std::uint32_t>;  // a variable, and a module or kAnyModule
+  [[nodiscard]] std::vector<EarlierValue> values_before(std::uint64_t log_time_ns,
+                                                        const std::set<VariableOf>& wanted) const;
+  // Returns true if the recording has values of this variable.
+  [[nodiscard]] bool has_values_of(std::uint32_t variable) const noexcept;
+  // Returns true if no run is missing between the first and the last one of a module, as far as its recorder knew.
+  [[nodiscard]] bool is_without_gaps() const noexcept { return without_gaps_; }
+
   // Returns true if the recording has keyframes of the module of this name.
   [[nodiscard]] bool has_keyframes(const std::string& module) const;
   // kRecordingFormat of the program that recorded it.
@@ -97,6 +124,8 @@ class RecordedRuns {
   std::uint16_t runs_channel_ = 0;
   std::uint16_t clock_channel_ = 0;
   std::uint16_t answer_channel_ = 0;
+  bool without_gaps_ = false;
+  std::uint64_t time_ns_ = 0;
 };
 
 }  // namespace indurop::node

@@ -11,6 +11,15 @@
 #include "node/replay/notes.h"
 
 namespace indurop::node {
+namespace {
+
+// Returns whether it is a value from before any module was started.
+bool is_first_value(const RecordedRuns::Item& item) {
+  const auto* value = std::get_if<RecordedValue>(&item);
+  return value != nullptr && value->words.kind == tape::EntryKind::Run;
+}
+
+}  // namespace
 
 Replay::Replay(const Options& options, Console& console, base::StopSignal& signals, const Checked& checked,
                const Prepared& prepared, const Loaded& loaded)
@@ -99,6 +108,18 @@ void Replay::stop_for_debugger(const recorder::RunWords& next) {
   console_.info("stopped before tick {}, the next run is one of {}: gdb -p {pid}, or kill -CONT {pid}", next.tail.tick,
                 module != nullptr ? module->name : "a module that is not here", fmt::arg("pid", ::getpid()));
   (void)::raise(SIGSTOP);
+}
+
+// Returns whether no run of a wanted tick follows: this one was released long after the last of these ticks. What a run
+// that takes even longer wrote is not compared.
+bool Replay::is_past_the_end(const recorder::RunWords& run) noexcept {
+  constexpr std::int64_t kLateNs = 1'000'000'000;
+  if (run.tail.tick <= options_.replay.to_tick) {
+    end_ns_ = std::max(end_ns_, run.tail.release_ns);
+    return false;
+  }
+  end_ns_ = end_ns_ == 0 ? run.tail.release_ns : end_ns_;
+  return run.tail.release_ns > end_ns_ + kLateNs;
 }
 
 // Returns false if the replay cannot continue.
@@ -194,6 +215,14 @@ bool Replay::replay(RecordedRuns& recorded) {
     if (!*item) {
       return true;
     }
+    if (modules_.begin_ns() > 0 && !started_ && !is_first_value(**item)) {
+      if (!start(nullptr)) {
+        return false;
+      }
+      modules_.begin_late();
+      recorded.seek(modules_.begin_ns());
+      continue;
+    }
     if (const auto* clock = std::get_if<RecordedClock>(&**item); clock != nullptr) {
       take(*clock);
     } else if (const auto* answer = std::get_if<RecordedAnswer>(&**item); answer != nullptr) {
@@ -201,11 +230,12 @@ bool Replay::replay(RecordedRuns& recorded) {
     } else if (const auto* keyframe = std::get_if<RecordedKeyframe>(&**item); keyframe != nullptr) {
       take(*keyframe);
     } else if (const auto* value = std::get_if<RecordedValue>(&**item); value != nullptr) {
-      const bool first = value->words.kind == tape::EntryKind::Run;
-      if (!(first || start(nullptr)) || !modules_.take(*value)) {
+      if (!(is_first_value(**item) || start(nullptr)) || !modules_.take(*value)) {
         return false;
       }
-    } else if (const auto& run = std::get<RecordedRun>(**item).words; !start(&run) || !replay_run(run)) {
+    } else if (const auto& run = std::get<RecordedRun>(**item).words; is_past_the_end(run)) {
+      return true;
+    } else if (!start(&run) || !replay_run(run)) {
       return false;
     }
     console_.print_messages(rt::MonoClock::now());

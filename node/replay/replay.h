@@ -28,6 +28,7 @@ class Replay {
   bool start(const recorder::RunWords* run);
   bool replay(RecordedRuns& recorded);
   void stop_for_debugger(const recorder::RunWords& next);
+  [[nodiscard]] bool is_past_the_end(const recorder::RunWords& run) noexcept;
   void take(const RecordedClock& clock);
   void take(const RecordedAnswer& answer);
   void take(const RecordedKeyframe& keyframe);
@@ -47,6 +48,7 @@ class Replay {
   Comparison comparison_;
   Repeated repeated_;
   bool stopped_ = false;        // at the tick where it was to stop
+  std::int64_t end_ns_ = 0;     // release of the last tick that is wanted; 0: not known yet
   std::optional<Alone> alone_;  // only this module is repeated
   bool started_ = false;
 };

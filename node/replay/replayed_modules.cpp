@@ -75,8 +75,8 @@ bool ReplayedModules::choose(const RecordedRuns& recorded) {
     }
   }
   find_variables();
-  look_ahead();
   find_keyframes_to_begin_at();
+  look_ahead();
   const bool any = std::any_of(modules_.begin(), modules_.end(), [](const auto& module) { return module->runs; });
   if (!any) {
     console_.error("no module of {} can run again", options_.replay.file.string());

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,12 @@ class ReplayedModules {
   // is damaged.
   bool take(const RecordedValue& value);
 
+  // The log time at which the replay begins, after the modules were started: not before their keyframes; 0: at the
+  // first item of the recording.
+  [[nodiscard]] std::uint64_t begin_ns() const noexcept { return begin_ns_; }
+  // Makes the values from before that time the known ones, and writes them to the store.
+  void begin_late();
+
   // The module that corresponds to a module of the recording; null: it is not in this configuration.
   [[nodiscard]] ReplayedModule* of_recording(std::uint32_t recorded) const noexcept;
   // Returns whether the recording has a module of this index; it also has values that no module reads or writes.
@@ -46,6 +53,13 @@ class ReplayedModules {
   bool learn_early(const RecordedValue& value, ReplayedModule& module, bool after_a_gap) const;
   void leave_out_if_unknown(ReplayedModule& module) const;
   void find_keyframes_to_begin_at();
+  struct Begin {
+    std::uint64_t run = 0;      // number of the run that begins with a keyframe
+    std::uint64_t time_ns = 0;  // log time of the keyframe
+  };
+  [[nodiscard]] std::vector<std::optional<Begin>> keyframes_between(RecordedRuns& recorded, std::uint64_t begin_ns,
+                                                                    std::uint64_t end_ns) const;
+  void find_earlier_values(const RecordedRuns& recorded);
 
   const Options& options_;
   const Console& console_;
@@ -54,6 +68,8 @@ class ReplayedModules {
   const std::vector<ModuleLibrary>& libraries_;
   std::vector<std::unique_ptr<ReplayedModule>> modules_;  // as in the configuration
   std::vector<ReplayedModule*> of_recording_;             // null: not in the configuration
+  std::uint64_t begin_ns_ = 0;
+  std::vector<RecordedRuns::EarlierValue> earlier_;  // the last ones before begin_ns_
 };
 
 }  // namespace indurop::node
