@@ -128,6 +128,9 @@ void declare_run_options(base::Options& line, RunOptions& options) {
            "With --replay and one --with: repeat only its module, which continues with its own results, and write the "
            "differences to this JSON file")
       .completes(base::Completion::File);
+  line.add("--replay-kept", "FILE", options.replay.kept,
+           "With --replay: write what modules keep at the end of the replay to this JSON file")
+      .completes(base::Completion::File);
   line.add("--replay-from", "TICK", options.replay.from_tick, "With --replay: first tick whose runs are compared");
   line.add("--replay-to", "TICK", options.replay.to_tick, "With --replay: last tick whose runs are compared");
   line.add("--replay-stop-at", "TICK", options.replay.stop_tick,
@@ -168,6 +171,7 @@ std::vector<std::string> words_of(const RunOptions& options) {
   }
   value("--replay-output", options.replay.output.string());
   value("--replay-report", options.replay.report.string());
+  value("--replay-kept", options.replay.kept.string());
   value("--replay-from", options.replay.from_tick > 0 ? std::to_string(options.replay.from_tick) : "");
   value("--replay-to", options.replay.to_tick != Replay::kLastTick ? std::to_string(options.replay.to_tick) : "");
   value("--replay-stop-at",

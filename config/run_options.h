@@ -36,6 +36,7 @@ struct Replay {
   std::vector<std::string> with;  // module files that replace those of the configuration; "MODULE=FILE" or FILE
   std::filesystem::path report;   // only the module of `with` is repeated, with its own values, and this is written
   std::filesystem::path output;   // recording of the values that modules write in the replay; empty: none
+  std::filesystem::path kept;     // what modules keep after the last tick is written to this file; empty: none
   std::uint64_t from_tick = 0;    // the runs of these ticks are compared
   std::uint64_t to_tick = kLastTick;
   std::uint64_t stop_tick = kLastTick;  // the process stops before the runs of this tick, for a debugger

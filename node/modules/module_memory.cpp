@@ -120,6 +120,26 @@ std::string ModuleMemory::astray() const {
   return names;
 }
 
+std::string ModuleMemory::led_to(const Item& item) const {
+  const StateAddress address = address_in(static_cast<const std::byte*>(item.address), item.size);
+  if (address.to == nullptr) {
+    return "nothing";
+  }
+  const auto to = reinterpret_cast<std::uintptr_t>(address.to);
+  const Item* inside = nullptr;  // the smallest one around it
+  for (const Item& one : items_) {
+    const auto begin = reinterpret_cast<std::uintptr_t>(one.address);
+    if (to >= begin && to - begin < one.size && (inside == nullptr || one.size < inside->size)) {
+      inside = &one;
+    }
+  }
+  if (inside == nullptr) {
+    return "what is not kept";
+  }
+  const std::uintptr_t offset = to - reinterpret_cast<std::uintptr_t>(inside->address);
+  return offset == 0 ? inside->name : fmt::format("{} + {} bytes", inside->name, offset);
+}
+
 std::size_t ModuleMemory::save(std::span<std::byte> to) const {
   std::size_t at = 0;
   for (const Item& item : items_) {

@@ -61,6 +61,9 @@ class ModuleMemory {
   // module may change them meanwhile.
   [[nodiscard]] std::string astray() const;
 
+  // What an address leads to, for people: "motor.speed", "motor + 8 bytes", "nothing", "what is not kept".
+  [[nodiscard]] std::string led_to(const Item& item) const;
+
   // Puts bytes of this form back. Returns the names of items that differ: kept in the bytes and unknown here, of
   // another type, or new here. Items of the same name and type are put back whatever the others are, also those of
   // arrays that have more elements here.

@@ -83,6 +83,7 @@ void ReplayedModules::leave_out_if_unknown(ReplayedModule& module) const {
   }
   if (!module.unknown_inputs.empty()) {
     module.runs = false;
+    module.why_not = "the recording has no values of its inputs (" + module.unknown_inputs + ")";
     console_.warning(
         "module {} does not run: the recording has no values of its inputs ({}); its outputs are taken from "
         "the recording",

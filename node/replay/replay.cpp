@@ -8,6 +8,7 @@
 #include <csignal>
 #include <utility>
 
+#include "node/replay/kept_report.h"
 #include "node/replay/notes.h"
 
 namespace indurop::node {
@@ -85,6 +86,7 @@ bool Replay::can_repeat(ReplayedModule& module, const recorder::RunWords& run) {
   if (next == ReplayedMemory::Next::Doubt) {
     note_doubt(module, run.tail.tick);
   }
+  module.note_knowledge(next, run.anew);
   return next != ReplayedMemory::Next::Wait;
 }
 
@@ -99,6 +101,7 @@ void Replay::end_at_exchange(ReplayedModule& module, const recorder::RunWords& r
   }
   module.take_outputs();
   module.runs = false;
+  module.why_not = "it was exchanged before this tick";
 }
 
 // All threads stop, so that the store shows what the next run begins with for as long as a debugger needs.
@@ -271,7 +274,13 @@ Ending Replay::run() {
     return {kFailed, "what modules leave cannot be written"};
   }
   repeater_.attach();
-  const bool whole = replay(*recorded);
+  bool whole = replay(*recorded);
+  if (const auto& file = options_.replay.kept; whole && !file.empty()) {
+    if (const auto written = write_kept(file, options_.replay.to_tick, modules_, comparison_); !written) {
+      console_.error("{}", written.error().text);
+      whole = false;
+    }
+  }
   repeater_.stop();
   console_.print_messages(rt::MonoClock::now());
   console_.report_losses();

@@ -42,6 +42,8 @@ class ReplayedMemory {
   // Puts the keyframe of this run back. Returns the names of what was not possible with.
   [[nodiscard]] std::vector<std::string> restore() const;
 
+  [[nodiscard]] const ModuleMemory& memory() const noexcept { return *memory_; }
+
   // Runs whose inputs are known and that were not repeated.
   [[nodiscard]] std::uint64_t waited() const noexcept { return waited_; }
   // Doubt: how many runs it lacks. The next run is not in doubt for these.

@@ -68,6 +68,23 @@ void ReplayedModule::begin_with_recorded() noexcept {
   doubtful = false;
 }
 
+void ReplayedModule::note_knowledge(ReplayedMemory::Next next, bool restarted) noexcept {
+  switch (next) {
+    case ReplayedMemory::Next::Wait:
+      knowledge = Knowledge::None;
+      return;
+    case ReplayedMemory::Next::Doubt:
+      knowledge = Knowledge::Doubtful;
+      return;
+    case ReplayedMemory::Next::Restore:
+      knowledge = Knowledge::Certain;
+      return;
+    case ReplayedMemory::Next::Run:
+      const bool is_new = knowledge == Knowledge::None || restarted || kept.is_empty();
+      knowledge = is_new ? Knowledge::Certain : knowledge;
+  }
+}
+
 // What it keeps may differ from now on, and so may what it writes: until the next keyframe, that proves nothing.
 void ReplayedModule::note_disturbance() noexcept {
   if (disturbed && kept.is_empty()) {

@@ -52,13 +52,18 @@ struct RecordedOutput {
   std::vector<std::uint8_t> bytes;
 };
 
+// Whether what a module keeps is what the recorded one kept.
+enum class Knowledge : std::uint8_t { None, Doubtful, Certain };
+
 struct ReplayedModule {
   std::uint32_t index = 0;  // in the configuration
   std::string name;
   bool runs = false;
+  std::string why_not;         // why it does not run; empty: it does
   std::string unknown_inputs;  // variables that it reads and that are not recorded; empty: none
   scheduler::TaskState state;
   ReplayedMemory kept;
+  Knowledge knowledge = Knowledge::None;  // after the run that was repeated last
   std::vector<KnownValue> known;
   std::map<std::uint32_t, std::size_t> place;  // of a variable in `known`
   std::set<std::string> not_written;           // variables that the recorded module wrote and this file does not
@@ -101,6 +106,8 @@ struct ReplayedModule {
   void write_inputs(vars::Store& store) const;
   // The next run begins with all recorded values, also of what it wrote itself.
   void begin_with_recorded() noexcept;
+  // Notes what is known of what the next run begins with. `restarted`: the module was started again before it.
+  void note_knowledge(ReplayedMemory::Next next, bool restarted) noexcept;
   // Notes whether the run that was repeated last was disturbed, and what that means for the following ones.
   void note_disturbance() noexcept;
   // Writes what a run that was not repeated had written: the next run begins with it.

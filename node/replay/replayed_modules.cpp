@@ -67,6 +67,7 @@ bool ReplayedModules::choose(const RecordedRuns& recorded) {
       reason = "it is a process";
     }
     module->runs = reason.empty() && is_wanted;
+    module->why_not = reason;
     module->kept.expect(libraries_[module->index].memory(), recorded.has_keyframes(module->name));
     if (!reason.empty() && is_wanted && checked_.alone) {
       console_.error("module {} cannot be repeated alone: {}", module->name, reason);

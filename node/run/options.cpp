@@ -29,6 +29,9 @@ std::string idle_options(const Options& options) {
   if (!replays && !options.replay.output.empty()) {
     return "--replay-output is for --replay; to record a run: --record";
   }
+  if (!replays && !options.replay.kept.empty()) {
+    return "--replay-kept is for --replay";
+  }
   if (!options.replay.report.empty() && (!replays || options.replay.with.size() != 1)) {
     return "--replay-report is for --replay and one --with";
   }

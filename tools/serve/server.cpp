@@ -65,7 +65,8 @@ Server::Server(tools::ServeOptions options, Admission admission, const std::stri
       orders_(options_.node),
       holds_(options_.node),
       history_(options_.node),
-      calls_(options_.node) {}
+      calls_(options_.node),
+      replays_(options_.node) {}
 
 std::string Server::choose_subprotocol(const Request& request) {
   return serve::choose_subprotocol(all_routes(), request);
@@ -125,6 +126,8 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
       return hand_over(history_, std::move(match), ticket);
     case Pace::Calls:
       return hand_over(calls_, std::move(match), ticket);
+    case Pace::Replays:
+      return hand_over(replays_, std::move(match), ticket);
     case Pace::Wait:
       return let_wait(match, ticket);
     case Pace::Plant:

@@ -86,6 +86,7 @@ class Server final : public House {
   Helper holds_;
   Helper history_;
   Helper calls_;
+  Helper replays_;
   struct Plant {
     Plant(const deploy::LinkSettings& settings, const std::string& node, const RemotePoller& boards_of_it)
         : watch(settings), boards(node, &boards_of_it, kPlantReader, &watch) {}

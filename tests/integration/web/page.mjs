@@ -211,6 +211,41 @@ await browser.run({
     }
   },
 
+  async "A recording is stepped through, back and forward, with what modules kept"() {
+    for (const [screen, size] of Object.entries({ wide, phone })) {
+      const page = await browser.open(`plots?m=recording&r=run.mcap&c=${JOINTS}`, size);
+      await page.waitForFunction(() => document.querySelectorAll(".plot canvas").length === 1);
+      await press(page, "Step");
+      const tick = () => page.evaluate(() => Number(document.querySelector(".step input")?.value));
+      const differs_from = (before) => page.waitForFunction((was) => {
+        const now = document.querySelector(".step input")?.value;
+        return now !== "" && now !== undefined && Number(now) !== was;
+      }, {}, before);
+      await differs_from(NaN);
+      const last = await tick();
+      await press(page, "Step back");
+      await differs_from(last);
+      const earlier = await tick();
+      check(earlier < last, `${earlier} is not before ${last}`);
+      await sees(page, `What modules kept after tick ${earlier}`);
+      for (const text of ["main keeps", "BOOL", "bit for bit", `tick ${earlier}`]) await sees(page, text);
+      await browser.check_view(page, `plots-step-${screen}`);
+      await press(page, "Step forward");
+      await differs_from(earlier);
+      check(await tick() === last, `${await tick()} instead of ${last}`);
+      await page.focus(".step");
+      await page.keyboard.press("ArrowLeft");
+      await differs_from(last);
+      check(await tick() === earlier, `${await tick()} instead of ${earlier}`);
+      await page.reload();  // the address names the tick
+      await differs_from(NaN);
+      check(await tick() === earlier, `${await tick()} instead of ${earlier} after a reload`);
+      await press(page, "Close");
+      await sees_no(page, "Step forward");
+      await page.close();
+    }
+  },
+
   async "The schedule shows runs and explains them"() {
     for (const [screen, size] of Object.entries({ wide, phone })) {
       const page = await browser.open("schedule?m=Robot", size);

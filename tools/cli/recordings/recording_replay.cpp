@@ -14,23 +14,10 @@
 #include "tools/cli/recordings/replayed_over.h"
 #include "tools/client/process/child.h"
 #include "tools/client/process/temporary_folder.h"
+#include "tools/client/recordings/replay_setup.h"
 
 namespace indurop::tools {
 namespace {
-
-// Returns the recording's facts about its node.
-Result<recording::TextMap, base::Problem> about(const ReplayOptions& options) {
-  auto reader = recording::McapReader::open(options.file);
-  if (!reader) {
-    return std::move(reader).error();
-  }
-  const recorder::Sources sources = recorder::find_sources(*reader);
-  const auto source = recorder::choose_source(sources, options.board, options.file.string());
-  if (!source) {
-    return source.error();
-  }
-  return sources.all[*source].about;
-}
 
 // Draws the variables that differ according to the replay's recording: the replayed values over the recorded ones.
 // Returns the exit code.
@@ -116,15 +103,13 @@ int replay_recording(Context& context, const ReplayOptions& options) {
   if (program.empty()) {
     return kFailed;
   }
-  auto known = about(options);
-  if (!known) {
-    context.out.error(known.error().text);
+  auto setup = replay_setup(options.file, options.board, options.config);
+  if (!setup) {
+    context.out.error(setup.error().text);
     return kFailed;
   }
-  config::RunOptions run;
+  config::RunOptions run = std::move(setup).value();
   run.quiet = context.out.quiet();
-  run.replay.file = options.file;
-  run.replay.board = options.board;
   run.replay.with = options.with;
   run.replay.output = options.output;
   const bool stops = options.stop_at != config::Replay::kLastTick;
@@ -132,24 +117,7 @@ int replay_recording(Context& context, const ReplayOptions& options) {
   run.replay.stop_tick = options.stop_at;
   run.replay.from_tick = one_tick ? options.at : from;
   run.replay.to_tick = one_tick ? options.at : options.to;
-  run.config = options.config.empty() ? std::filesystem::path((*known)["config"]) : options.config;
-  run.board = (*known)["board"];
   run.node = options.node;
-  if (run.config.empty()) {
-    context.out.error(
-        fmt::format("{} does not name the configuration with which it was recorded, because its recorder ended before "
-                    "it had written "
-                    "the first runs; name it with --config",
-                    options.file.string()));
-    return kFailed;
-  }
-  std::error_code ignored;
-  if (!std::filesystem::exists(run.config, ignored)) {
-    context.out.error(
-        fmt::format("{} was recorded with {}, which is missing here; name the configuration with --config",
-                    options.file.string(), run.config.string()));
-    return kFailed;
-  }
   return options.svg.empty() && !options.comes_back ? become_node(context, program, run)
                                                     : as_child(context, options, program, std::move(run));
 }

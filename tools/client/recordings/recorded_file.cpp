@@ -6,22 +6,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <map>
 #include <system_error>
 #include <tuple>
 #include <utility>
 
 #include "history/recorder/boxes.h"
-#include "history/recording/idl_layout.h"
 #include "history/recording/mcap_reader.h"
+#include "tools/client/recordings/recorded_numbers.h"
 
 namespace indurop::tools {
 namespace {
 
 using base::Problem;
 namespace fs = std::filesystem;
-
-constexpr std::string_view kOwn = "indurop/";  // channels that are not variables
 
 std::int64_t written_ns(const fs::path& file) {
   std::error_code ignored;
@@ -38,45 +35,6 @@ RecordingFile file_of(const recorder::Box& box, bool black_box) {
           black_box,
           box.bytes,
           written_ns(box.file)};
-}
-
-// The layouts of channels with numbers, by channel id in the file.
-using Layouts = std::map<std::uint16_t, std::vector<recording::IdlLeaf>>;
-
-Layouts layouts_of(const recording::Contents& contents) {
-  Layouts layouts;
-  for (const auto& [id, channel] : contents.channels) {
-    const auto schema = contents.schemas.find(channel.schema);
-    if (channel.topic.starts_with(kOwn) || channel.encoding != "cdr" || schema == contents.schemas.end()) {
-      continue;
-    }
-    if (auto layout = recording::idl_layout(schema->second.data, schema->second.name)) {
-      layouts.emplace(id, std::move(layout).value());
-    }
-  }
-  return layouts;
-}
-
-// By channel: pairs of leaf and line index.
-using Wanted = std::map<std::uint16_t, std::vector<std::pair<std::size_t, std::size_t>>>;
-
-Result<Wanted, Problem> find_numbers(const recording::Contents& contents, const Layouts& layouts,
-                                     const std::vector<std::string>& names) {
-  std::map<std::string, std::pair<std::uint16_t, std::size_t>> known;
-  for (const auto& [id, layout] : layouts) {
-    for (std::size_t i = 0; i < layout.size(); ++i) {
-      known.emplace(contents.channels.at(id).topic + layout[i].name, std::pair(id, i));
-    }
-  }
-  Wanted wanted;
-  for (std::size_t line = 0; line < names.size(); ++line) {
-    const auto found = known.find(names[line]);
-    if (found == known.end()) {
-      return Problem{fmt::format("there is no number '{}' in the recording", names[line])};
-    }
-    wanted[found->second.first].emplace_back(found->second.second, line);
-  }
-  return wanted;
 }
 
 // Samples the values of the lines at evenly spaced times.

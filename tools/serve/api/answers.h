@@ -34,6 +34,8 @@ Reply robots(Api& api, const Call& call);
 Reply recordings(Api& api, const Call& call);
 Reply recording(Api& api, const Call& call);
 Reply recorded_values(Api& api, const Call& call);
+Reply recorded_tick(Api& api, const Call& call);
+Reply replay_recording(Api& api, const Call& call);
 
 Reply plc(Api& api, const Call& call);
 Reply plc_live(Api& api, const Call& call);

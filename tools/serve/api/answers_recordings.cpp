@@ -7,9 +7,22 @@
 #include <utility>
 
 #include "tools/client/recordings/recorded_file.h"
+#include "tools/client/recordings/recorded_tick.h"
 #include "tools/serve/api/answers.h"
+#include "tools/serve/api/recording_choice.h"
 
-namespace indurop::serve::answers {
+namespace indurop::serve {
+
+Result<tools::RecordingFile, Reply> recording_of(const Api& api, const Call& call) {
+  const std::string& name = call.part.find("name")->second;
+  const auto all = tools::list_recordings(api.facts().recordings);
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&name](const tools::RecordingFile& one) { return one.name == name; });
+  return found != all.end() ? Result<tools::RecordingFile, Reply>(*found)
+                            : refusal(status::kNotFound, fmt::format("there is no recording '{}'", name));
+}
+
+namespace answers {
 namespace {
 
 constexpr std::uint64_t kMostPoints = 20'000;
@@ -26,16 +39,6 @@ base::Json json_of(const tools::RecordingFile& file) {
   return out;
 }
 
-// Only files that are listed can be opened, whatever the path is.
-Result<tools::RecordingFile, Reply> file_of(const Api& api, const Call& call) {
-  const std::string& name = call.part.find("name")->second;
-  const auto all = tools::list_recordings(api.facts().recordings);
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&name](const tools::RecordingFile& one) { return one.name == name; });
-  return found != all.end() ? Result<tools::RecordingFile, Reply>(*found)
-                            : refusal(status::kNotFound, fmt::format("there is no recording '{}'", name));
-}
-
 }  // namespace
 
 Reply recordings(Api& api, const Call& /*call*/) {
@@ -49,7 +52,7 @@ Reply recordings(Api& api, const Call& /*call*/) {
 }
 
 Reply recording(Api& api, const Call& call) {
-  const auto file = file_of(api, call);
+  const auto file = recording_of(api, call);
   if (!file) {
     return file.error();
   }
@@ -61,6 +64,7 @@ Reply recording(Api& api, const Call& call) {
   body["begin_ns"] = contents->begin_ns;
   body["end_ns"] = contents->end_ns;
   body["complete"] = contents->complete;
+  body["boards"] = base::Json(tools::boards_in(file->path));
   base::Json channels = base::Json::array();
   for (const tools::RecordedChannel& channel : contents->channels) {
     base::Json one = base::Json::object();
@@ -74,7 +78,7 @@ Reply recording(Api& api, const Call& call) {
 }
 
 Reply recorded_values(Api& api, const Call& call) {
-  const auto file = file_of(api, call);
+  const auto file = recording_of(api, call);
   if (!file) {
     return file.error();
   }
@@ -117,4 +121,6 @@ Reply recorded_values(Api& api, const Call& call) {
   return json_reply(body);
 }
 
-}  // namespace indurop::serve::answers
+}  // namespace answers
+
+}  // namespace indurop::serve

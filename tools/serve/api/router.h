@@ -39,8 +39,23 @@ struct Call {
 // The thread that answers: the door's; one that may read files; one that verifies passwords; one that may wait for a
 // node; one of those that wait for an event; one for requests that must not wait for the others; one that receives from
 // remote boards; one that changes what they run; one that has the PLC program; one that reads histories; one that calls
-// shared functions. Files of the page and streams have no answer of their own.
-enum class Pace { Quick, Files, SignIn, Orders, Wait, Holds, Plant, PlantOrders, Plc, History, Calls, Page, Stream };
+// shared functions; one that waits for replays. Files of the page and streams have no answer of their own.
+enum class Pace {
+  Quick,
+  Files,
+  SignIn,
+  Orders,
+  Wait,
+  Holds,
+  Plant,
+  PlantOrders,
+  Plc,
+  History,
+  Calls,
+  Replays,
+  Page,
+  Stream
+};
 
 using Answer = Reply (*)(Api& api, const Call& call);
 

@@ -85,6 +85,8 @@ std::span<const Route> all_routes() {
       Route{kGet, "/api/v1/recordings", kLook, Pace::Files, &answers::recordings, kLocalOnly},
       Route{kGet, "/api/v1/recordings/{name}", kLook, Pace::Files, &answers::recording, kLocalOnly},
       Route{kGet, "/api/v1/recordings/{name}/values", kLook, Pace::Files, &answers::recorded_values, kLocalOnly},
+      Route{kGet, "/api/v1/recordings/{name}/tick", kLook, Pace::Files, &answers::recorded_tick, kLocalOnly},
+      Route{kPost, "/api/v1/recordings/{name}/replay", kProgram, Pace::Replays, &answers::replay_recording, kLocalOnly},
       Route{kGet, "/api/v1/deployments", kLook, Pace::Quick, &answers::deployments, kLocalOnly},
       Route{kGet, "/api/v1/audit", kLook, Pace::Files, &answers::audit, kLocalOnly},
       Route{kGet, "/metrics", kLook, Pace::Files, &answers::metrics, kLocalOnly},

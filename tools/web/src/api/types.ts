@@ -106,7 +106,33 @@ export interface RecordingContents extends RecordingFile {
   begin_ns: number;
   end_ns: number;
   complete: boolean;
+  boards: string[];  // whose recordings were joined; empty: of one node
   channels: { name: string; unit: string; numbers: string[] }[];
+}
+
+// One tick of a recording.
+export interface RecordedTick {
+  tick: number;
+  previous: number | null;
+  next: number | null;
+  begin_ns: number;
+  end_ns: number;
+  runs: {
+    module: string; number: number; release_ns: number; start_ns: number; end_ns: number; faulted: boolean;
+    values: { name: string; written: boolean; text: string }[];
+  }[];
+  numbers: { name: string; value: number | null }[];
+}
+
+// What modules kept after a tick of a recording, from a replay.
+export interface ReplayedTick {
+  tick: number;
+  differing: number;
+  messages: string[];
+  modules: {
+    module: string; state: "known" | "doubtful" | "unknown"; reason: string; by_functions: boolean;
+    kept: { name: string; type: string; value: string }[];
+  }[];
 }
 
 export interface RecordedValues {

@@ -23,6 +23,13 @@ export interface Line {
   part: Part | null;
 }
 
+// The tick of a recording that is looked at.
+export interface Stepped {
+  time: number;  // s since 1970
+  name: string;
+  numbers: Map<string, number>;  // the values then
+}
+
 interface Props {
   index: number;
   lines: Line[];
@@ -31,6 +38,7 @@ interface Props {
   shown: () => Shown;
   drawn: number;  // changes when the chart has to be drawn again
   marks: number[];
+  step?: Stepped | null;
   zoom: (shown: Shown) => void;
   live: () => void;
   mark: (at: number) => void;
@@ -110,7 +118,7 @@ function options(props: () => Props, size: { width: number; height: number }, cu
         props().zoom({ from, to });
       }],
       setCursor: [(plot) => cursor(plot.cursor.left === undefined || plot.cursor.left < 0 ? null : plot.posToVal(plot.cursor.left, "x"))],
-      draw: [(plot) => draw_marks(plot, props().marks, MARKS), (plot) => relative && draw_marks(plot, [0], ["T"])],
+      draw: [(plot) => draw_marks(plot, props().marks, MARKS), (plot) => { const { step } = props(); if (step) draw_marks(plot, [step.time], [step.name]); }, (plot) => relative && draw_marks(plot, [0], ["T"])],
     },
   };
 }
@@ -148,12 +156,13 @@ function shown_value(line: Line, value: number): string {
 
 function Legend({ props, cursor }: { props: Props; cursor: number | null }) {
   const { lines, marks, remove } = props;
-  const now = values_at(props, cursor);
+  const step = cursor === null ? props.step : null;
+  const now = step ? lines.map(({ name }) => step.numbers.get(name) ?? NaN) : values_at(props, cursor);
   const at = marks.map((mark) => values_at(props, mark));
   return (
     <table class="legend">
-      {marks.length > 0 && (
-        <thead><tr><th scope="col">Variable</th><th scope="col">{cursor === null ? "newest" : "at cursor"}</th><th scope="col">Unit</th>
+      {(marks.length > 0 || props.step) && (
+        <thead><tr><th scope="col">Variable</th><th scope="col">{step ? step.name : cursor === null ? "newest" : "at cursor"}</th><th scope="col">Unit</th>
           {marks.map((_, i) => <th key={i} scope="col">{MARKS[i]}</th>)}
           {marks.length === 2 && <th scope="col">B - A, in {short(marks[1] - marks[0])} s</th>}<th /></tr></thead>)}
       <tbody>
@@ -199,7 +208,7 @@ export function Chart(props: Props) {
       chart.destroy();
     };
   }, [key, colours]);
-  useEffect(() => plot.current?.setData(data_of(latest.current)), [props.drawn, props.marks]);
+  useEffect(() => plot.current?.setData(data_of(latest.current)), [props.drawn, props.marks, props.step]);
   const drawable = props.lines.filter(({ part }) => part && !is_number(part));
   return (
     <section class={`panel chart ${over ? "over" : ""}`} aria-label={`Chart ${props.index + 1}`}

@@ -40,7 +40,7 @@ export function Plots() {
   const choice = (
     <div class="bar"><Choice label="Show" value={scope.mode} of={MODES} choose={(m) => change_query({ m: m === "strip" ? "" : m })} />
       <span class="quiet">{HINTS[scope.mode]}</span></div>);
-  if (scope.mode === "recording") return <>{choice}<Recorded charts={charts} name={query.get("r") ?? ""} /></>;
+  if (scope.mode === "recording") return <>{choice}<Recorded charts={charts} name={query.get("r") ?? ""} tick={query.get("t") ?? ""} board={query.get("b") ?? ""} /></>;
   if (!board) return <>{choice}<NoBoard purpose={PURPOSE} /></>;
 
   const drawable = names.filter((name) => { const part = parts.get(name); return part && is_number(part); });

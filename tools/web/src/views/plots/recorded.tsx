@@ -4,17 +4,18 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type uPlot from "uplot";
 import { get } from "../../api/http";
-import type { RecordedValues, RecordingContents, RecordingFile } from "../../api/types";
+import type { RecordedTick, RecordedValues, RecordingContents, RecordingFile } from "../../api/types";
 import { change_query } from "../../ui/address";
 import { clock, span } from "../../ui/format";
 import { Waiting } from "../../ui/parts";
 import type { Part } from "../../ui/paths";
 import { useRequest } from "../../ui/store";
-import { Chart, type Line, type Shown } from "./chart";
+import { Chart, type Line, type Shown, type Stepped } from "./chart";
 import { csv_of, save_png, save_text } from "./export";
 import { show_charts } from "./layout";
 import { Picker } from "./picker";
 import type { Samples } from "./recorder";
+import { StepBar, TickDetails } from "./step";
 
 const POINTS = 3000;
 const TIMEOUT_MS = 60_000;
@@ -49,7 +50,18 @@ function label({ name, reason, wall_ns, black_box }: RecordingFile): string {
   return `${clock(wall_ns)}  ${name}${black_box && reason ? `: ${reason}` : ""}`;
 }
 
-export function Recorded({ charts, name }: { charts: string[][]; name: string }) {
+// The tick that is looked at, as shown in charts.
+function stepped({ tick, end_ns, numbers }: RecordedTick): Stepped {
+  return { time: end_ns / 1e9, name: `tick ${tick}`, numbers: new Map(numbers.map(({ name, value }) => [name, value ?? NaN])) };
+}
+
+// The same length of time around the tick, if it is not in the part that is shown.
+function moved_to(at: number, shown: Shown): Shown {
+  const half = (shown.to - shown.from) / 2;
+  return at >= shown.from && at <= shown.to ? shown : { from: at - half, to: at + half };
+}
+
+export function Recorded({ charts, name, tick, board }: { charts: string[][]; name: string; tick: string; board: string }) {
   const all = useRequest("recordings", 5000, () => get<{ recordings: RecordingFile[] }>("recordings"));
   const inside = useRequest(name && `recording ${name}`, 0, () => get<RecordingContents>(path(name), TIMEOUT_MS));
   const [zoomed, set_zoomed] = useState<Shown | null>(null);
@@ -69,6 +81,20 @@ export function Recorded({ charts, name }: { charts: string[][]; name: string })
   useEffect(() => set_zoomed(null), [name]);
 
   const whole = inside.value;
+  const of_board = board || whole?.boards[0] || "";
+  const at_tick = useRequest(whole && tick !== "" ? `tick ${name} ${of_board} ${tick} ${wanted}` : "", 0, () => get<RecordedTick>(
+    path(name, `/tick?tick=${tick}&board=${encodeURIComponent(of_board)}${wanted.map((one) => `&number=${encodeURIComponent(one)}`).join("")}`), TIMEOUT_MS));
+  const last_step = useRef<RecordedTick | null>(null);
+  if (at_tick.value) last_step.current = at_tick.value;
+  const step = tick === "" ? null : last_step.current;
+  const marked = useMemo(() => step && stepped(step), [step]);
+  useEffect(() => { if (zoomed && marked) set_zoomed(moved_to(marked.time, zoomed)); }, [marked]);
+  useEffect(() => { last_step.current = null; }, [name, of_board]);
+  const go = (to: number) => change_query({ t: String(to) });
+  const go_to_time = (at: number) => {
+    void get<RecordedTick>(path(name, `/tick?at_ns=${Math.max(0, Math.round(at * 1e9))}&board=${encodeURIComponent(of_board)}`), TIMEOUT_MS)
+      .then((found) => go(found.tick), () => {});
+  };
   const shown = (): Shown => zoomed ?? { from: (whole?.begin_ns ?? 0) / 1e9, to: (whole?.end_ns ?? 1e9) / 1e9 };
   const line = (one: string): Line => ({ name: one, part: units.has(one) ? { unit: units.get(one), form: { kind: "f64", size: 8 } } as Part : null });
   const add = (one: string, to: number) => {
@@ -79,13 +105,19 @@ export function Recorded({ charts, name }: { charts: string[][]; name: string })
     <>
       <div class="bar">
         <label class="choice recording">Recording{" "}
-          <select value={name} onChange={(event) => change_query({ r: event.currentTarget.value })}>
+          <select value={name} onChange={(event) => change_query({ r: event.currentTarget.value, t: "", b: "" })}>
             <option value="">select one</option>
             {all.value?.recordings.map((one) => <option key={one.name} value={one.name}>{label(one)}</option>)}
           </select></label>
         {zoomed && <button type="button" onClick={() => set_zoomed(null)}>All</button>}
         <button type="button" disabled={!samples} onClick={() => samples && save_text(csv_of(samples, wanted.map(line), shown()))}>CSV</button>
         <button type="button" disabled={!samples} onClick={() => save_png([...plots.current.values()])}>PNG</button>
+        {whole && tick === "" && <button type="button" onClick={() => go_to_time(marks[0] ?? shown().to)}>Step</button>}
+        {whole && whole.boards.length > 0 && tick !== "" && (
+          <label class="choice">Board{" "}
+            <select value={of_board} onChange={(event) => change_query({ b: event.currentTarget.value })}>
+              {whole.boards.map((one) => <option key={one} value={one}>{one}</option>)}
+            </select></label>)}
         {marks.length > 0 && <button type="button" onClick={() => set_marks([])}>Clear marks</button>}
       </div>
       {all.value?.recordings.length === 0 && <p class="quiet">There are no recordings. A node writes a black box when a module faults. To show the files of indurop record, start the
@@ -98,15 +130,17 @@ export function Recorded({ charts, name }: { charts: string[][]; name: string })
             {whole.complete ? "" : ". The file was not closed."}</p>
           <div class="plots">
             <div>
+              {tick !== "" && <StepBar step={step} error={at_tick.error} go={go} close={() => change_query({ t: "", b: "" })} />}
               {charts.length === 0 && <p class="panel">To begin, click a number, or drag it here.</p>}
               {charts.map((chart, index) => (
-                <Chart key={index} index={index} lines={chart.map(line)} recorder={last.current} shown={shown} drawn={drawn} marks={marks} zoom={set_zoomed}
-                  live={() => { set_zoomed(null); set_marks([]); }} mark={(at) => set_marks(marks.length === 2 ? [] : [...marks, at].sort((a, b) => a - b))}
+                <Chart key={index} index={index} lines={chart.map(line)} recorder={last.current} shown={shown} drawn={drawn} marks={marks} step={marked} zoom={set_zoomed}
+                  live={() => { set_zoomed(null); set_marks([]); }} mark={(at) => tick !== "" ? go_to_time(at) : set_marks(marks.length === 2 ? [] : [...marks, at].sort((a, b) => a - b))}
                   remove={(one) => show_charts(charts.map((names, i) => (i === index ? names.filter((other) => other !== one) : names)))}
                   drop={(one) => add(one, index)} set_plot={(plot) => { if (plot) plots.current.set(index, plot); else plots.current.delete(index); }} />))}
               <p class="panel drop" onDragOver={(event) => event.preventDefault()}
                 onDrop={(event) => { event.preventDefault(); add(event.dataTransfer?.getData("text/plain") ?? "", charts.length); }}>
                 Drag a number here for a new chart. In a chart: drag over a part of it to zoom, double-click to see all, click twice to measure.</p>
+              {step && <TickDetails path={path(name)} board={of_board} step={step} />}
             </div>
             <Picker names={[...units.keys()].sort()} add={(one) => add(one, Math.max(0, charts.length - 1))} />
           </div>
