@@ -153,6 +153,9 @@ bool Replay::replay_run(const recorder::RunWords& run) {
   }
   module.restart_due = module.restart_due || run.anew;
   const bool can = can_repeat(module, run);
+  if (can && module.seen == 0 && !alone_) {
+    modules_.write_first_outputs(module);
+  }
   const bool can_continue = !can || repeater_.repeat(module, run);
   module.take_outputs();
   if (!can) {

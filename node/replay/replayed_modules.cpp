@@ -112,6 +112,18 @@ void ReplayedModules::find_variables() {
   }
 }
 
+void ReplayedModules::write_first_outputs(const ReplayedModule& module) {
+  for (const KnownValue& known : module.known) {
+    const bool is_shared = std::any_of(modules_.begin(), modules_.end(), [&](const auto& other) {
+      const auto place = other->place.find(known.variable);
+      return other.get() != &module && place != other->place.end() && other->known[place->second].written;
+    });
+    if (known.written && known.has_value && !is_shared) {
+      (void)store_.write(store_.directory()[known.variable], 0, known.bytes);
+    }
+  }
+}
+
 bool ReplayedModules::take(const RecordedValue& value) {
   const vars::DirectoryEntry& entry = store_.directory()[value.variable];
   const schema::Variable& variable = variable_at(store_, value.variable);

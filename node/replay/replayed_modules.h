@@ -38,6 +38,10 @@ class ReplayedModules {
   // Makes the values from before that time the known ones, and writes them to the store.
   void begin_late();
 
+  // Writes to the store what a module had written before its first run in the recording: a run that does not write it
+  // again leaves it there. What other modules write, too, is left alone.
+  void write_first_outputs(const ReplayedModule& module);
+
   // The module that corresponds to a module of the recording; null: it is not in this configuration.
   [[nodiscard]] ReplayedModule* of_recording(std::uint32_t recorded) const noexcept;
   // Returns whether the recording has a module of this index; it also has values that no module reads or writes.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // As walker, but it declares what it keeps between its runs. BY_FUNCTIONS: by save() and restore().
-// BUSY_US: each run takes so long, and save() too, in the middle of its work.
+// SELDOM: it writes in one of 1000 runs only. BUSY_US: each run takes so long, and save() too, in the middle of its work.
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 
@@ -33,6 +33,11 @@ void onRun() {
   path.own += STEP + steps % 5;
   path.filtered[steps % 4] += 0.25 * (static_cast<double>(nt::counted) - path.filtered[(steps + 1) % 4]);
   spend_time();
+#ifdef SELDOM
+  if (steps % 1000 != 1) {
+    return;
+  }
+#endif
   nt::walked = path.own;
   nt::pace = {path.own, path.filtered[0] + path.filtered[3]};
 }

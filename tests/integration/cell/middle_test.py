@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The robot cell (examples/robot_cell), recorded from random instants of its tour on, with a robot in motion, parts in the
-gripper and stops: each recording is repeated from its keyframes, and nothing differs. So is a black box kept on the way.
-INDUROP_CELL_RECORDINGS says how many recordings."""
+gripper and stops: each recording is repeated from its keyframes, and nothing differs. So are black boxes kept on the way.
+INDUROP_CELL_RECORDINGS says how many recordings, INDUROP_CELL_BOXES how many boxes."""
 
 import argparse
 import json
@@ -15,6 +15,9 @@ import tempfile
 import time
 
 from cell_test import RunningCell, copy_configuration
+
+
+BETWEEN_BOXES_S = 10.5  # a node keeps at most one in 10 s
 
 
 def differing(done):
@@ -32,12 +35,21 @@ def box_of(cell, node, reason):
     return next((box["file"] for box in boxes if box["reason"] == reason), None)
 
 
+def keep_box(cell, node, file):
+    reason = f"in the middle of the tour of {os.getpid()} at {time.time():.3f}"
+    done = cell.indurop("blackbox", "keep", reason, "--node", node)
+    assert done.returncode == 0, done.stderr
+    cell.wait("the black box", lambda: box_of(cell, node, reason) is not None)
+    shutil.copy(box_of(cell, node, reason), file)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--bin", required=True)
     parser.add_argument("--cell", required=True, help="folder with module.xml")
     parser.add_argument("--io-module", required=True)
     parser.add_argument("--recordings", type=int, default=int(os.environ.get("INDUROP_CELL_RECORDINGS", "6")))
+    parser.add_argument("--boxes", type=int, default=int(os.environ.get("INDUROP_CELL_BOXES", "1")))
     arguments = parser.parse_args()
     node = "middle_test"
     with tempfile.TemporaryDirectory() as folder:
@@ -50,17 +62,16 @@ def main():
                 time.sleep(random.uniform(0, 3))  # somewhere in the tour
                 done = cell.indurop("record", "--node", node, "-o", f"{i}.mcap", "--duration", "2s")
                 assert done.returncode == 0, done.stderr
-            reason = f"in the middle of the tour of {os.getpid()} at {time.time():.0f}"
-            done = cell.indurop("blackbox", "keep", reason, "--node", node)
-            assert done.returncode == 0, done.stderr
-            cell.wait("the black box", lambda: box_of(cell, node, reason) is not None)
-            shutil.copy(box_of(cell, node, reason), os.path.join(folder, "box.mcap"))
-        for name in [*(str(i) for i in range(arguments.recordings)), "box"]:
+            for i in range(arguments.boxes):
+                if i > 0:
+                    time.sleep(BETWEEN_BOXES_S + random.uniform(0, 3))
+                keep_box(cell, node, os.path.join(folder, f"box{i}.mcap"))
+        for name in [*(str(i) for i in range(arguments.recordings)), *(f"box{i}" for i in range(arguments.boxes))]:
             done = cell.indurop("replay", f"{name}.mcap", "--node", f"{node}_replay")
             wrong = differing(done)
             assert not wrong, f"{name}: {wrong}"
             print(done.stdout.strip().splitlines()[-1])
-    print(f"{arguments.recordings} recordings and a black box: equal")
+    print(f"{arguments.recordings} recordings and {arguments.boxes} black boxes: equal")
     return 0
 
 
