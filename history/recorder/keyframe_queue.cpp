@@ -3,24 +3,44 @@
 
 #include <utility>
 
+#include "store/tape/process_keyframes.h"
+
 namespace indurop::recorder {
 
+void KeyframeQueue::follow(const std::shared_ptr<tape::KeyframeFollower>& follower,
+                           const std::function<bool(std::uint32_t)>& wanted) {
+  for (std::size_t i = 0; i < follower->modules(); ++i) {
+    const tape::KeyframeFollower::Module& module = follower->module(i);
+    if (wanted(module.module)) {
+      Waiting& waiting = waiting_[module.module];
+      waiting.channel = waiting.form == module.form ? waiting.channel : 0;
+      waiting.form = module.form;
+      waiting.follower = follower;
+      waiting.index = i;
+    }
+  }
+}
+
 void KeyframeQueue::read(const std::string& node, const tape::TapeHeader& tape,
-                         const std::function<bool(std::uint32_t)>& wanted) {
+                         const std::vector<std::uint32_t>& modules, const std::function<bool(std::uint32_t)>& wanted) {
   if (!sought_ && tape.order.load(std::memory_order_acquire) > 0) {
     sought_ = true;
     if (auto opened = tape::KeyframeFollower::open(node, tape); opened) {
-      follower_.emplace(std::move(opened).value());
+      follow(std::make_shared<tape::KeyframeFollower>(std::move(opened).value()), wanted);
     }
-    for (std::size_t i = 0; follower_ && i < follower_->modules(); ++i) {
-      if (const std::uint32_t module = follower_->module(i).module; wanted(module)) {
-        waiting_[module].index = i;
-      }
+  }
+  for (const std::uint32_t module : sought_ ? modules : std::vector<std::uint32_t>()) {
+    const auto known = waiting_.find(module);
+    if (known != waiting_.end() && !known->second.follower->is_replaced()) {
+      continue;
+    }
+    if (auto opened = tape::KeyframeFollower::open_file(tape::process_keyframe_file(node, module), tape); opened) {
+      follow(std::make_shared<tape::KeyframeFollower>(std::move(opened).value()), wanted);
     }
   }
   tape::Keyframe keyframe;
   for (auto& [module, waiting] : waiting_) {
-    while (follower_->next(waiting.index, keyframe)) {
+    while (waiting.follower->next(waiting.index, keyframe)) {
       waiting.keyframes.push_back(keyframe);
     }
   }
@@ -39,7 +59,7 @@ const tape::Keyframe* KeyframeQueue::of(std::uint32_t module, std::uint64_t run)
 }
 
 const std::string& KeyframeQueue::form(std::uint32_t module) const {
-  return follower_->module(waiting_.at(module).index).form;
+  return waiting_.at(module).form;
 }
 
 void KeyframeQueue::begin_file() {

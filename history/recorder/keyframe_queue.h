@@ -7,8 +7,9 @@
 #include <deque>
 #include <functional>
 #include <map>
-#include <optional>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "store/tape/keyframes.h"
 
@@ -18,7 +19,9 @@ class KeyframeQueue {
  public:
   // Reads what is there, before runs are read: a run that is seen afterwards may begin with it. `wanted`: modules whose
   // keyframes are of use. The node is asked once whether it has keyframes, when its first run is on the tape.
-  void read(const std::string& node, const tape::TapeHeader& tape, const std::function<bool(std::uint32_t)>& wanted);
+  // `modules`: those of the tape; a process among them has keyframes from its start on.
+  void read(const std::string& node, const tape::TapeHeader& tape, const std::vector<std::uint32_t>& modules,
+            const std::function<bool(std::uint32_t)>& wanted);
 
   // Returns the keyframe that a run of the module begins with; null: there is none. Those of earlier runs are dropped.
   const tape::Keyframe* of(std::uint32_t module, std::uint64_t run);
@@ -30,12 +33,15 @@ class KeyframeQueue {
 
  private:
   struct Waiting {
+    std::shared_ptr<tape::KeyframeFollower> follower;
     std::size_t index = 0;  // in the follower
+    std::string form;
     std::uint16_t channel = 0;
     std::deque<tape::Keyframe> keyframes;
   };
+  void follow(const std::shared_ptr<tape::KeyframeFollower>& follower,
+              const std::function<bool(std::uint32_t)>& wanted);
   bool sought_ = false;
-  std::optional<tape::KeyframeFollower> follower_;
   std::map<std::uint32_t, Waiting> waiting_;  // by module
 };
 

@@ -292,7 +292,12 @@ Result<bool, Problem> Recorder::take_run(std::size_t track, std::int64_t until_n
 }
 
 Result<void, Problem> Recorder::take(std::int64_t until_ns) {
-  keyframes_.read(about_.node, follower_.header(), [this](std::uint32_t module) { return records_inputs(module); });
+  std::vector<std::uint32_t> modules;
+  for (std::size_t track = 0; track < follower_.tracks(); ++track) {
+    modules.push_back(follower_.module_of(track));
+  }
+  keyframes_.read(about_.node, follower_.header(), modules,
+                  [this](std::uint32_t module) { return records_inputs(module); });
   for (std::size_t track = 0; track < follower_.tracks(); ++track) {
     for (bool more = true; more;) {
       auto taken = take_run(track, until_ns);

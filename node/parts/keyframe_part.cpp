@@ -32,32 +32,38 @@ std::unique_ptr<KeyframePart> KeyframePart::begin(const Options& options, const 
     }
   }
   (void)vars::remove_shm_file(vars::keyframe_file(options.node));  // left by an earlier run
-  if (plans.empty()) {
-    return nullptr;
-  }
-  auto writer = tape::KeyframeWriter::create(options.node, plans);
-  if (!writer) {
-    console.warning("no keyframes are taken: {}", describe(writer.error()));
+  ProcessRequests processes(options.node, prepared, options.simulation.on);
+  std::optional<tape::KeyframeWriter> writer;
+  if (!plans.empty()) {
+    auto created = tape::KeyframeWriter::create(options.node, plans);
+    if (!created) {
+      console.warning("no keyframes are taken: {}", describe(created.error()));
+      return nullptr;
+    }
+    writer.emplace(std::move(created).value());
+  } else if (processes.empty()) {
     return nullptr;
   }
   return std::unique_ptr<KeyframePart>(
-      new KeyframePart(prepared, engine, console, std::move(subjects), std::move(writer).value()));
+      new KeyframePart(prepared, engine, console, std::move(subjects), std::move(writer), std::move(processes)));
 }
 
 KeyframePart::KeyframePart(const Prepared& prepared, const scheduler::Engine& engine, const Console& console,
-                           std::vector<Subject> subjects, tape::KeyframeWriter writer)
+                           std::vector<Subject> subjects, std::optional<tape::KeyframeWriter> writer,
+                           ProcessRequests processes)
     : prepared_(prepared),
       engine_(engine),
       console_(console),
       subjects_(std::move(subjects)),
-      writer_(std::move(writer)) {}
+      writer_(std::move(writer)),
+      processes_(std::move(processes)) {}
 
 void KeyframePart::begin_period() {
   for (std::size_t i = 0; i < subjects_.size(); ++i) {
     Subject& subject = subjects_[i];
     const scheduler::ModuleRecord& record = prepared_.run().modules()[subject.module];
     if (subject.due && record.state.load() == scheduler::ModuleState::Running) {
-      writer_.note_missed(i);
+      writer_->note_missed(i);
       if (++subject.missed == kMissedInARow) {
         const std::string astray = subject.memory->astray();
         console_.about(record.name)
@@ -69,6 +75,7 @@ void KeyframePart::begin_period() {
     }
     subject.due = true;
   }
+  processes_.begin_period();
 }
 
 void KeyframePart::take(scheduler::Kernel& kernel, const Exchanges& exchanges) {
@@ -87,6 +94,7 @@ void KeyframePart::take(scheduler::Kernel& kernel, const Exchanges& exchanges) {
       subjects_[i].missed = 0;
     }
   }
+  processes_.ask();
 }
 
 // The copy counts if no code of the module was being executed before it and none was entered until it was complete.
@@ -103,11 +111,11 @@ bool KeyframePart::take_one(std::size_t index, scheduler::Kernel& kernel) {
   head.run = prepared_.tape->of(subject.module)->runs();
   head.tick = run.tick.load();
   head.time_ns = rt::to_ns(kernel.now());
-  head.bytes = subject.memory->save(writer_.room(index));
+  head.bytes = subject.memory->save(writer_->room(index));
   std::atomic_thread_fence(std::memory_order_acquire);
   const bool whole = head.bytes > 0 && engine_.entries_if_outside(subject.module) == before;
   if (whole) {
-    writer_.publish(index, head);
+    writer_->publish(index, head);
   }
   return whole;
 }

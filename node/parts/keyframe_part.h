@@ -6,11 +6,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/rt/clock.h"
 #include "node/exchange/exchanges.h"
+#include "node/parts/process_requests.h"
 #include "node/run/checked.h"
 #include "node/run/console.h"
 #include "node/run/loaded.h"
@@ -22,8 +24,8 @@ namespace indurop::node {
 
 class KeyframePart {
  public:
-  // Returns null if there is no tape or no module declares what it keeps. A failure is reported: the node runs without.
-  // All references are borrowed.
+  // Returns null if there is no tape, or no process and no module that declares what it keeps. A failure is reported:
+  // the node runs without. All references are borrowed.
   static std::unique_ptr<KeyframePart> begin(const Options& options, const Prepared& prepared, const Loaded& loaded,
                                              const scheduler::Engine& engine, const Console& console);
 
@@ -40,7 +42,7 @@ class KeyframePart {
     std::uint32_t missed = 0;  // in a row
   };
   KeyframePart(const Prepared& prepared, const scheduler::Engine& engine, const Console& console,
-               std::vector<Subject> subjects, tape::KeyframeWriter writer);
+               std::vector<Subject> subjects, std::optional<tape::KeyframeWriter> writer, ProcessRequests processes);
   void begin_period();
   bool take_one(std::size_t index, scheduler::Kernel& kernel);
 
@@ -48,7 +50,8 @@ class KeyframePart {
   const scheduler::Engine& engine_;
   const Console& console_;
   std::vector<Subject> subjects_;
-  tape::KeyframeWriter writer_;
+  std::optional<tape::KeyframeWriter> writer_;  // for thread modules, if there are subjects
+  ProcessRequests processes_;
   rt::MonoTime next_{};
 };
 

@@ -4,6 +4,7 @@
 #include "core/base/json.h"
 #include "core/base/replace_file.h"
 #include "node/replay/kept_text.h"
+#include "store/tape/process_keyframes.h"
 
 namespace indurop::node {
 namespace {
@@ -22,16 +23,12 @@ const char* word_of(Knowledge knowledge) {
   return "unknown";
 }
 
-bool is_declared(const ModuleMemory& memory) {
-  return memory.is_whole() || memory.is_empty();
-}
-
 // Returns why that is not known for certain; empty: it is.
 std::string reason_of(const ReplayedModule& module) {
   if (!module.why_not.empty()) {
     return module.why_not;
   }
-  if (!is_declared(module.kept.memory())) {
+  if (!module.kept.is_declared()) {
     return module.kept.why_none();
   }
   if (module.apart) {
@@ -44,6 +41,11 @@ std::string reason_of(const ReplayedModule& module) {
     return module.seen == 0 ? "it did not run" : "there is no keyframe before this tick";
   }
   return module.seen == 0 ? "it did not run" : module.kept.why_none();
+}
+
+// `form`: of the keyframe that was put back last.
+bool has_functions(const ModuleMemory& memory, const std::string& form) {
+  return memory.uses_functions() || form.find(tape::kFormOfFunctions) != std::string::npos;
 }
 
 Json items_of(const ModuleMemory& memory) {
@@ -62,17 +64,19 @@ Json items_of(const ModuleMemory& memory) {
 }  // namespace
 
 Result<void, base::Problem> write_kept(const std::filesystem::path& file, std::uint64_t tick,
-                                       const ReplayedModules& modules, const Comparison& comparison) {
+                                       const ReplayedModules& modules, const Comparison& comparison,
+                                       const std::function<const ModuleMemory*(const ReplayedModule&)>& memory_of) {
   Json list = Json::array();
   for (const auto& module : modules.all()) {
-    const ModuleMemory& memory = module->kept.memory();
-    const Knowledge knowledge =
-        module->runs && !module->apart && is_declared(memory) ? module->knowledge : Knowledge::None;
+    const bool known = module->runs && !module->apart && module->kept.is_declared() && !module->kept.is_empty();
+    const ModuleMemory* const memory = known ? memory_of(*module) : nullptr;
+    const bool shown = memory != nullptr || (module->runs && module->kept.is_empty());
+    const Knowledge knowledge = shown ? module->knowledge : Knowledge::None;
     list.push_back({{"module", module->name},
                     {"state", word_of(knowledge)},
                     {"reason", reason_of(*module)},
-                    {"by_functions", memory.uses_functions()},
-                    {"kept", knowledge == Knowledge::None ? Json::array() : items_of(memory)}});
+                    {"by_functions", memory != nullptr && has_functions(*memory, module->kept.form())},
+                    {"kept", knowledge == Knowledge::None || memory == nullptr ? Json::array() : items_of(*memory)}});
   }
   const Json report = {{"tick", tick}, {"differing", comparison.differences()}, {"modules", list}};
   if (const auto written = base::replace_file(file, report.dump(2), base::Durable::No); !written) {

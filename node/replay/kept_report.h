@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 
 #include "core/base/problem.h"
 #include "node/replay/comparison.h"
@@ -14,8 +15,10 @@
 
 namespace indurop::node {
 
-// Writes JSON (docs/recording.md) to `file`. Called before the modules are stopped. Errors: those of the disk.
+// Writes JSON (docs/recording.md) to `file`. Called before the modules are stopped. `memory_of`: what a module keeps;
+// null: that cannot be taken. Errors: those of the disk.
 Result<void, base::Problem> write_kept(const std::filesystem::path& file, std::uint64_t tick,
-                                       const ReplayedModules& modules, const Comparison& comparison);
+                                       const ReplayedModules& modules, const Comparison& comparison,
+                                       const std::function<const ModuleMemory*(const ReplayedModule&)>& memory_of);
 
 }  // namespace indurop::node

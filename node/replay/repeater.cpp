@@ -105,6 +105,7 @@ bool Repeater::start(const ReplayedModules& modules) {
     (void)processes_.supervise(rt::MonoClock::now(), kernel_.now());
   }
   for (const auto& module : modules.all()) {
+    find_kept(*module);
     if (module->runs && module->state.task.type == ModuleType::Thread) {
       module->state.record->state.store(ModuleState::Running);
     }

@@ -6,12 +6,14 @@
 
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "node/modules/hang_watch.h"
 #include "node/modules/processes.h"
 #include "node/replay/replayed_modules.h"
+#include "node/replay/replayed_process.h"
 #include "node/run/phases.h"
 #include "scheduler/runner.h"
 #include "store/tape/replay_input.h"
@@ -32,6 +34,8 @@ class Repeater {
   bool start(const ReplayedModules& modules);
   // Repeats the run whose inputs the module has. Returns false, after an error, if the replay cannot continue.
   bool repeat(ReplayedModule& module, const recorder::RunWords& run);
+  // What the module keeps now; null: that cannot be taken. Valid until the next call.
+  const ModuleMemory* memory_of(const ReplayedModule& module);
   // Ends the modules.
   void stop();
 
@@ -51,6 +55,7 @@ class Repeater {
   scheduler::Hooks hooks();
   scheduler::Hooks run_hooks();
   void restore(const ReplayedModule& module);
+  void find_kept(ReplayedModule& module);
   bool restart(ReplayedModule& module);
   bool restart_process(std::uint32_t index);
   bool call(std::uint32_t index, const char* phase, void (*function)());
@@ -67,6 +72,7 @@ class Repeater {
   scheduler::Runner runner_;
   Phases phases_;
   Processes processes_;
+  std::map<std::uint32_t, ReplayedProcess> kept_;        // of process modules, by index
   std::optional<tape::ReplayInputWriter> replay_input_;  // for process modules, if there are any
   std::atomic<std::uint64_t> returned_{0};               // runs, for the check whether one hangs
   std::optional<HangWatch> hang_watch_;

@@ -59,7 +59,7 @@ bool Replay::begin(const RecordedRuns& recorded) {
 
 // Runs before this one are missing, and nothing tells what the module kept inside.
 void Replay::note_doubt(ReplayedModule& module, std::uint64_t tick) {
-  const std::string reason = module.is_process() ? "a process has no keyframes" : module.kept.why_none();
+  const std::string reason = module.kept.why_none();
   if (alone_) {
     alone_->begin_with_initial_values(reason);
     (void)module.kept.take_missing();
@@ -279,7 +279,9 @@ Ending Replay::run() {
   repeater_.attach();
   bool whole = replay(*recorded);
   if (const auto& file = options_.replay.kept; whole && !file.empty()) {
-    if (const auto written = write_kept(file, options_.replay.to_tick, modules_, comparison_); !written) {
+    if (const auto written = write_kept(file, options_.replay.to_tick, modules_, comparison_,
+                                        [this](const ReplayedModule& module) { return repeater_.memory_of(module); });
+        !written) {
       console_.error("{}", written.error().text);
       whole = false;
     }

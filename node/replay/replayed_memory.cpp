@@ -10,6 +10,16 @@ void ReplayedMemory::expect(const ModuleMemory& memory, bool recorded) noexcept 
   recorded_ = recorded;
 }
 
+void ReplayedMemory::expect_process(bool declares, bool recorded) noexcept {
+  memory_ = nullptr;
+  process_declares_ = declares;
+  recorded_ = recorded;
+}
+
+bool ReplayedMemory::is_declared() const noexcept {
+  return memory_ != nullptr ? memory_->is_whole() || memory_->is_empty() : process_declares_;
+}
+
 void ReplayedMemory::take(const recorder::KeyframeRecord& keyframe, const std::string& form) {
   keyframe_run_ = keyframe.run;
   form_ = form;
@@ -23,7 +33,7 @@ ReplayedMemory::Next ReplayedMemory::next(std::uint64_t run, bool restarted, boo
     return Next::Wait;
   }
   const bool begins_with_keyframe = has_keyframes() && keyframe_run_ == run;
-  if ((missing_ == 0 && !(renews_ && begins_with_keyframe)) || restarted || memory_->is_empty()) {
+  if ((missing_ == 0 && !(renews_ && begins_with_keyframe)) || restarted || is_empty()) {
     missing_ = 0;
     return Next::Run;
   }
@@ -41,11 +51,10 @@ ReplayedMemory::Next ReplayedMemory::next(std::uint64_t run, bool restarted, boo
 }
 
 std::string ReplayedMemory::why_none() const {
-  if (!memory_->missing().empty()) {
+  if (memory_ != nullptr && !memory_->missing().empty()) {
     return "a keyframe cannot hold " + memory_->missing();
   }
-  return memory_->is_whole() ? "the recording has no keyframe of it"
-                             : "it does not declare what it keeps (INDUROP_STATE)";
+  return is_declared() ? "the recording has no keyframe of it" : "it does not declare what it keeps (INDUROP_STATE)";
 }
 
 std::vector<std::string> ReplayedMemory::restore() const {

@@ -20,6 +20,10 @@ class ReplayedMemory {
  public:
   // `memory`: of the module as it is loaded now; borrowed. `recorded`: the recording has keyframes of it.
   void expect(const ModuleMemory& memory, bool recorded) noexcept;
+  // The same for a process, which keeps it in its own memory: it is put back by Repeater.
+  void expect_process(bool declares, bool recorded) noexcept;
+  // The process declares that it keeps nothing.
+  void know_empty() noexcept { empty_process_ = true; }
   // No run before the run `first` is repeated: a keyframe begins there. Does nothing if this keyframe is of no use.
   void begin_at(std::uint64_t first) noexcept { first_ = has_keyframes() ? first : 0; }
 
@@ -38,22 +42,31 @@ class ReplayedMemory {
   // The next keyframe is put back, although no run is missing. Returns false if there is none to come.
   bool renew() noexcept { return renews_ = has_keyframes(); }
   // Returns true if the module declares that it keeps nothing.
-  [[nodiscard]] bool is_empty() const noexcept { return memory_->is_empty(); }
-  // Puts the keyframe of this run back. Returns the names of what was not possible with.
+  [[nodiscard]] bool is_empty() const noexcept { return memory_ != nullptr ? memory_->is_empty() : empty_process_; }
+  // Returns true if the module declares all that it keeps.
+  [[nodiscard]] bool is_declared() const noexcept;
+  // Puts the keyframe of this run back in a thread module. Returns the names of what was not possible with.
   [[nodiscard]] std::vector<std::string> restore() const;
-
-  [[nodiscard]] const ModuleMemory& memory() const noexcept { return *memory_; }
+  // What the keyframe of this run holds.
+  [[nodiscard]] const std::string& form() const noexcept { return form_; }
+  [[nodiscard]] const std::vector<std::uint8_t>& bytes() const noexcept { return bytes_; }
+  // Null: of a process.
+  [[nodiscard]] const ModuleMemory* memory() const noexcept { return memory_; }
 
   // Runs whose inputs are known and that were not repeated.
   [[nodiscard]] std::uint64_t waited() const noexcept { return waited_; }
   // Doubt: how many runs it lacks. The next run is not in doubt for these.
   std::uint64_t take_missing() noexcept { return std::exchange(missing_, 0); }
-  [[nodiscard]] bool has_keyframes() const noexcept { return recorded_ && memory_->is_whole(); }
-  // Why there is no keyframe of a thread module that could help, for people.
+  [[nodiscard]] bool has_keyframes() const noexcept {
+    return recorded_ && (memory_ != nullptr ? memory_->is_whole() : process_declares_);
+  }
+  // Why there is no keyframe that could help, for people.
   [[nodiscard]] std::string why_none() const;
 
  private:
   const ModuleMemory* memory_ = nullptr;
+  bool process_declares_ = false;
+  bool empty_process_ = false;
   bool recorded_ = false;
   bool renews_ = false;
   std::uint64_t first_ = 0;

@@ -68,7 +68,11 @@ bool ReplayedModules::choose(const RecordedRuns& recorded) {
     }
     module->runs = reason.empty() && is_wanted;
     module->why_not = reason;
-    module->kept.expect(libraries_[module->index].memory(), recorded.has_keyframes(module->name));
+    if (const bool any = recorded.has_keyframes(module->name); configured.type == ModuleType::Process) {
+      module->kept.expect_process(names(checked_.check.facts[module->index].file.exports, "indurop_module_state"), any);
+    } else {
+      module->kept.expect(libraries_[module->index].memory(), any);
+    }
     if (!reason.empty() && is_wanted && checked_.alone) {
       console_.error("module {} cannot be repeated alone: {}", module->name, reason);
     } else if (!module->runs && is_wanted) {

@@ -77,6 +77,7 @@ bool Repeater::restart(ReplayedModule& module) {
   if (module.is_process()) {
     module.died = false;
     good = restart_process(module.index);
+    find_kept(module);
   } else {
     const auto& functions = libraries_[module.index].functions();
     (void)call(module.index, "stop", functions.stop);  // a failure is reported
@@ -91,8 +92,22 @@ bool Repeater::restart(ReplayedModule& module) {
   return good;
 }
 
+void Repeater::find_kept(ReplayedModule& module) {
+  if (module.runs && module.is_process() &&
+      kept_[module.index].open(options_.node, module.index, run_.node_pid.load()) && kept_[module.index].is_empty()) {
+    module.kept.know_empty();
+  }
+}
+
+const ModuleMemory* Repeater::memory_of(const ReplayedModule& module) {
+  return module.is_process() ? kept_[module.index].memory() : module.kept.memory();
+}
+
 void Repeater::restore(const ReplayedModule& module) {
-  for (const std::string& name : module.kept.restore()) {
+  const std::vector<std::string> differing = module.is_process()
+                                                 ? kept_[module.index].restore(module.kept.form(), module.kept.bytes())
+                                                 : module.kept.restore();
+  for (const std::string& name : differing) {
     if (module.keeps_own) {
       continue;  // the plan of the exchange has it
     }

@@ -163,6 +163,7 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
   mapping_ = &mapping;
   slot_ = &slot;
   set_current_track(nullptr);
+  kept_.reset();
   tape_.reset();
   if (const Attachment* attachment = hot.attachment.load(std::memory_order_acquire)) {
     if (auto member = tape::Member::open(node_, index, attachment->store())) {
@@ -173,6 +174,7 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
   if (auto replay_input = tape::ReplayInputReader::open(node_, run.node_pid.load(std::memory_order_relaxed))) {
     replay_input_ = std::move(replay_input).value();
   }
+  kept_ = KeptThread::begin(node_, index, run, tape_ ? &tape_->track() : nullptr);
   holder_ = holder;
   enrolled_as_ = is_launched ? launched : pid_;  // a script may run between the node and this program
   phase_ = Phase::Prepared;
@@ -220,6 +222,9 @@ void Enrolment::finish_run() noexcept {
            slot_->start_ns.load(std::memory_order_relaxed), end},
           0);
     }
+    if (kept_) {
+      kept_->leave();
+    }
     slot_->done.store(seen_, std::memory_order_release);
   }
 }
@@ -227,6 +232,9 @@ void Enrolment::finish_run() noexcept {
 bool Enrolment::take_release() noexcept {
   if (slot_->released.load(std::memory_order_acquire) <= seen_) {
     return false;
+  }
+  if (kept_) {
+    kept_->enter();
   }
   if (tape_) {
     tape_->track().begin();

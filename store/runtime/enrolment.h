@@ -8,10 +8,12 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "scheduler/run_block.h"
+#include "store/runtime/kept_thread.h"
 #include "store/runtime/run_mapping.h"
 #include "store/tape/member.h"
 #include "store/tape/replay_input.h"
@@ -64,6 +66,7 @@ class Enrolment {
   scheduler::ProcessSlot* slot_ = nullptr;
   std::optional<tape::Member> tape_;                     // none: the node has no tape
   std::optional<tape::ReplayInputReader> replay_input_;  // the node is a replay
+  std::unique_ptr<KeptThread> kept_;                     // null: the module does not declare what it keeps
   std::int32_t pid_ = 0;
   std::int32_t holder_ = 0;       // pid of the previous holder of the slot
   std::int32_t enrolled_as_ = 0;  // pid under which the node knows this process

@@ -34,6 +34,10 @@ bool lies_inside(std::uint64_t offset, std::uint64_t bytes, std::uint64_t total)
 }  // namespace
 
 Result<KeyframeWriter> KeyframeWriter::create(const std::string& node, std::span<const KeyframePlan> plans) {
+  return create(KeyframeFile{vars::keyframe_file(node), ::getpid()}, plans);
+}
+
+Result<KeyframeWriter> KeyframeWriter::create(const KeyframeFile& where, std::span<const KeyframePlan> plans) {
   std::uint64_t total = kModulesOffset + plans.size() * sizeof(KeyframeModule);
   std::vector<std::uint64_t> forms;
   for (const KeyframePlan& plan : plans) {
@@ -45,7 +49,7 @@ Result<KeyframeWriter> KeyframeWriter::create(const std::string& node, std::span
     slots.push_back(total);
     total += kKeyframeSlots * to_line(sizeof(KeyframeHead) + plan.most);
   }
-  auto file = vars::ShmFile::create(vars::keyframe_file(node), total);
+  auto file = vars::ShmFile::create(where.name, total + where.more_bytes);
   if (!file) {
     return file.error();
   }
@@ -53,7 +57,7 @@ Result<KeyframeWriter> KeyframeWriter::create(const std::string& node, std::span
   header.abi = kKeyframeAbi;
   header.module_count = static_cast<std::uint32_t>(plans.size());
   header.total_size = total;
-  header.node_pid = ::getpid();
+  header.node_pid = where.node_pid;
   header.node_start_time = vars::process_start_time(header.node_pid);
   KeyframeWriter writer(std::move(file).value());
   for (std::size_t i = 0; i < plans.size(); ++i) {
@@ -65,11 +69,64 @@ Result<KeyframeWriter> KeyframeWriter::create(const std::string& node, std::span
     module.slot_bytes = to_line(sizeof(KeyframeHead) + plans[i].most);
     std::memcpy(writer.file_.data() + forms[i], plans[i].form.data(), plans[i].form.size());
   }
+  if (where.prepare != nullptr) {
+    where.prepare(writer.more());
+  }
   header.magic.store(kKeyframeMagic, std::memory_order_release);
   if (const Status published = writer.file_.publish(); !published) {
     return published.error();
   }
   return writer;
+}
+
+Result<KeyframeWriter> KeyframeWriter::open(const KeyframeFile& where) {
+  auto file = vars::ShmFile::open(where.name, vars::Mode::ReadWrite);
+  if (!file) {
+    return file.error();
+  }
+  const auto& header = *reinterpret_cast<const KeyframeHeader*>(file->data());
+  if (file->size() < kModulesOffset + sizeof(KeyframeModule) ||
+      header.magic.load(std::memory_order_acquire) != kKeyframeMagic) {
+    return Error{Errc::Corrupt, 0, "no keyframes"};
+  }
+  if (header.abi != kKeyframeAbi) {
+    return Error{Errc::VersionMismatch, 0, "the keyframes of another release"};
+  }
+  if (header.node_pid != where.node_pid) {
+    return Error{Errc::NotFound, 0, "the keyframes belong to another run"};
+  }
+  KeyframeWriter writer(std::move(file).value());
+  const KeyframeModule& own = writer.module(0);
+  const std::uint64_t total = header.total_size;
+  if (total > writer.file_.size() || where.more_bytes > writer.file_.size() - total ||
+      !lies_inside(own.form_offset, own.form_bytes, total) || own.slot_bytes < sizeof(KeyframeHead) ||
+      own.slot_bytes > total / kKeyframeSlots ||
+      !lies_inside(own.slots_offset, own.slot_bytes * kKeyframeSlots, total)) {
+    return Error{Errc::Corrupt, 0, "the keyframes are inconsistent"};
+  }
+  return writer;
+}
+
+std::string KeyframeWriter::form(std::size_t index) const {
+  const KeyframeModule& own = module(index);
+  return {reinterpret_cast<const char*>(file_.data() + own.form_offset), own.form_bytes};
+}
+
+std::span<const std::uint8_t> KeyframeWriter::newest(std::size_t index) const noexcept {
+  const KeyframeModule& own = module(index);
+  const std::uint64_t count = own.count.load(std::memory_order_acquire);
+  if (count == 0) {
+    return {};
+  }
+  const std::byte* const at = file_.data() + own.slots_offset + (count - 1) % kKeyframeSlots * own.slot_bytes;
+  KeyframeHead head;
+  std::memcpy(static_cast<void*>(&head), at, sizeof head);
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(at) + sizeof head;
+  return {bytes, std::min(head.bytes, own.slot_bytes - sizeof head)};
+}
+
+std::byte* KeyframeWriter::more() const noexcept {
+  return file_.data() + reinterpret_cast<const KeyframeHeader*>(file_.data())->total_size;
 }
 
 KeyframeModule& KeyframeWriter::module(std::size_t index) const noexcept {
@@ -97,7 +154,11 @@ void KeyframeWriter::note_missed(std::size_t index) noexcept {
 }
 
 Result<KeyframeFollower> KeyframeFollower::open(const std::string& node, const TapeHeader& tape) {
-  auto file = vars::ShmFile::open(vars::keyframe_file(node), vars::Mode::ReadOnly);
+  return open_file(vars::keyframe_file(node), tape);
+}
+
+Result<KeyframeFollower> KeyframeFollower::open_file(const std::string& name, const TapeHeader& tape) {
+  auto file = vars::ShmFile::open(name, vars::Mode::ReadOnly);
   if (!file) {
     return file.error();
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keyframes of a node: copies of what its modules keep between two runs, in shared memory next to the tape. Each module
-// has a few slots in rotation that one thread of the node writes; readers never see a slot that is half written, even
-// if the node is killed in the middle. Not real-time safe.
+// has a few slots in rotation that one thread of the node, or of a process module, writes; readers never see a slot
+// that is half written, even if the node is killed in the middle. Not real-time safe.
 
 #pragma once
 
@@ -59,16 +59,33 @@ struct KeyframePlan {
   std::string form;
 };
 
+// The file of keyframes, in shared memory.
+struct KeyframeFile {
+  std::string name;
+  std::int32_t node_pid = 0;
+  std::uint64_t more_bytes = 0;                // after the keyframes, for the owner
+  void (*prepare)(std::byte* more) = nullptr;  // called before others see the file
+};
+
 class KeyframeWriter {
  public:
   // Replaces older keyframes of the node. Errors: NoSpace, PermissionDenied, System. On error no file is left.
   static Result<KeyframeWriter> create(const std::string& node, std::span<const KeyframePlan> plans);
+  static Result<KeyframeWriter> create(const KeyframeFile& file, std::span<const KeyframePlan> plans);
+  // Opens the keyframes of one module that another process writes, too. Errors: NotFound (there are none, or they
+  // belong to another node), PermissionDenied, VersionMismatch, Corrupt, System.
+  static Result<KeyframeWriter> open(const KeyframeFile& file);
 
   // The place for the bytes of the next keyframe of entry `index` of the plans.
   [[nodiscard]] std::span<std::byte> room(std::size_t index) noexcept;
   // What was written to room() is the next keyframe; readers see it from now on.
   void publish(std::size_t index, const KeyframeHead& head) noexcept;
   void note_missed(std::size_t index) noexcept;
+  [[nodiscard]] std::string form(std::size_t index) const;
+  // The bytes of the newest keyframe; empty: there is none.
+  [[nodiscard]] std::span<const std::uint8_t> newest(std::size_t index) const noexcept;
+  // The memory after the keyframes.
+  [[nodiscard]] std::byte* more() const noexcept;
 
  private:
   explicit KeyframeWriter(vars::ShmFile&& file) : file_(std::move(file)) {}
@@ -89,12 +106,16 @@ class KeyframeFollower {
   // Begins with the oldest keyframe still there. Errors: NotFound (the node of this tape has none), PermissionDenied,
   // VersionMismatch, Corrupt, System.
   static Result<KeyframeFollower> open(const std::string& node, const TapeHeader& tape);
+  // The same for keyframes that a process module writes, process_keyframe_file().
+  static Result<KeyframeFollower> open_file(const std::string& name, const TapeHeader& tape);
 
   struct Module {
     std::uint32_t module = 0;
     std::string form;
   };
   [[nodiscard]] std::size_t modules() const noexcept { return places_.size(); }
+  // Returns true if a newer process replaced the file.
+  [[nodiscard]] bool is_replaced() const noexcept { return file_.named() == vars::ShmFile::Named::Gone; }
   [[nodiscard]] const Module& module(std::size_t index) const noexcept { return places_[index].known; }
   // Reads the next keyframe of a module; false: there is none yet.
   bool next(std::size_t index, Keyframe& keyframe);

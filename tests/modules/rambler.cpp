@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // As walker, but it declares what it keeps between its runs. BY_FUNCTIONS: by save() and restore().
-// SELDOM: it writes in one of 1000 runs only. BUSY_US: each run takes so long, and save() too, in the middle of its work.
+// AS_PROCESS: as a process module. SELDOM: it writes in one of 1000 runs only. BUSY_US: each run takes so long, and
+// save() too, in the middle of its work.
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 
@@ -68,4 +69,16 @@ INDUROP_STATE(path, steps)
 
 #endif
 
+#ifdef AS_PROCESS
+int main() {
+  if (irp::initPeriodExe() < 0) {
+    return 1;
+  }
+  while (irp::waitPeriod()) {
+    onRun();
+  }
+  return 0;
+}
+#else
 INDUROP_MODULE(run = &::onRun)
+#endif

@@ -70,6 +70,37 @@ TEST_F(FromTheMiddle, Any_cut_is_repeated_as_the_whole_is) {
   }
 }
 
+TEST_F(FromTheMiddle, A_process_is_repeated_as_a_thread_is) {
+  for (const char* program : {"rambler_process.exe", "rambler_by_process.exe"}) {
+    std::filesystem::remove(file());
+    Module process = rambler(program);
+    process.type = "process";
+    ASSERT_EQ(run_to_end({kCounter, process}, {"--sim", "--until", "4s", "--record", file()}).code, 0);
+    EXPECT_CONTAINS(replay(file()).out, "4000 ticks, 6000 runs, 12000 values: equal");
+    std::mt19937 random(11);  // NOLINT(cert-msc51-cpp): the same each time
+    for (int round = 0; round < 5; ++round) {
+      const Outcome again = replay_from(1 + random() % 3200);
+      EXPECT_EQ(again.code, 0) << again.out << again.err;
+      EXPECT_CONTAINS(again.out, " values: equal");
+      EXPECT_FALSE(contains(again.err, "runs of rambler before tick ")) << again.err;
+    }
+  }
+}
+
+TEST_F(FromTheMiddle, A_live_recording_of_a_process_is_repeated_from_its_first_keyframe) {
+  Module process = rambler("rambler_process.exe");
+  process.type = "process";
+  Program& sut = start_and_wait({kCounter, process});
+  ASSERT_TRUE(runs_reach("rambler", 300));
+  ASSERT_EQ(indurop({"record", "-o", file(), "--duration", "2s"}).code, 0);
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  const Outcome again = replay(file());
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_CONTAINS(again.out, " values: equal");
+  EXPECT_CONTAINS(again.out, "runs of rambler were not repeated: they come before the first keyframe");
+}
+
 TEST_F(FromTheMiddle, Without_a_declaration_it_differs) {
   ASSERT_EQ(run_to_end({kCounter, kWalker}, {"--sim", "--until", "2s", "--record", file()}).code, 0);
   const Outcome again = replay_from(1000);
