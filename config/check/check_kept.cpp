@@ -11,6 +11,7 @@
 #include "config/check/check_parts.h"
 #include "config/check/io_access.h"
 #include "core/base/text.h"
+#include "core/schema/kept_notes.h"
 
 namespace indurop::config {
 namespace {
@@ -22,26 +23,41 @@ bool may_be_asked(const Module& module, const schema::ModuleFile& file) {
   return module.operation != scheduler::Operation::NonReal && module.signal == 0 && !is_io_module(file);
 }
 
-// Returns what is missing and what to do, or nothing. A module without symbols of variables is not suspected.
+constexpr const char* kLost = "there is no keyframe of it, and an exchange begins with initial values";
+
+// Returns what is missing and what to do, or nothing.
 std::string missing(const Module& module, const schema::ModuleFile& file) {
   if (!may_be_asked(module, file)) {
     return "";
   }
-  if (module.type == scheduler::ModuleType::Process) {
-    return "is a process, of which no keyframe is taken: a replay that begins in the middle of a recording does not "
-           "know what it keeps; a thread module can declare it (INDUROP_STATE)";
+  const auto notes = schema::read_kept_notes(module.file);
+  if (notes && !notes->undeclarable.empty()) {
+    return fmt::format("keeps what its declaration cannot contain ({}): {}; keep it in another way",
+                       notes->undeclarable, kLost);
   }
   const bool declares =
       std::binary_search(file.exports.begin(), file.exports.end(), std::string("indurop_module_state"));
-  if (declares || file.variables.empty()) {
+  if (!declares && module.type == scheduler::ModuleType::Process) {
+    return fmt::format(
+        "is a process that does not declare what it keeps from run to run, so there is no keyframe of it; write "
+        "INDUROP_STATE(...) with the names of its variables ({}), or INDUROP_STATE() if it keeps nothing",
+        file.variables.empty() ? "local variables of main() cannot be declared"
+                               : base::enumerate(file.variables, kShownOwn));
+  }
+  const bool unknown = file.variables.empty() && notes && notes->stripped;
+  if (declares || (file.variables.empty() && !unknown)) {
     return "";
   }
+  if (unknown) {
+    return fmt::format(
+        "is stripped, so its variables are not known, and does not declare what it keeps from run to run: {}; write "
+        "INDUROP_STATE(...) with the names of what it keeps, or INDUROP_STATE() if it keeps nothing",
+        kLost);
+  }
   return fmt::format(
-      "has variables of its own ({}) and does not declare which of them it keeps from run to run: there is no keyframe "
-      "of it, and an exchange begins with initial values; write INDUROP_STATE(...) with their names, or "
-      "INDUROP_STATE() "
-      "if it keeps none",
-      base::enumerate(file.variables, kShownOwn));
+      "has variables of its own ({}) and does not declare which of them it keeps from run to run: {}; write "
+      "INDUROP_STATE(...) with their names, or INDUROP_STATE() if it keeps none",
+      base::enumerate(file.variables, kShownOwn), kLost);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include "core/base/read_file.h"
 #include "core/schema/checked_file.h"
+#include "core/schema/kept_notes.h"
 #include "core/schema/own_variable.h"
 #include "core/schema/schema.h"
 
@@ -70,6 +71,23 @@ class Reader {
       }
     }
     return std::move(out_);
+  }
+
+  Result<KeptNotes> run_for_notes() {
+    for (const auto step : {&Reader::read_header, &Reader::read_sections}) {
+      if (const Status status = (this->*step)(); !status.ok()) {
+        return status.error();
+      }
+    }
+    KeptNotes notes;
+    notes.stripped = section_of_type(SHT_SYMTAB) == nullptr;
+    for (const Elf64_Shdr& section : sections_) {
+      if (text_at({names_.data(), names_.size()}, section.sh_name).value_or("") == ".indurop.undeclarable") {
+        const auto text = section.sh_size <= kMaxOurSections ? contents<char>(section) : std::nullopt;
+        notes.undeclarable = text ? std::string(text->begin(), text->end()) : "";
+      }
+    }
+    return notes;
   }
 
  private:
@@ -358,6 +376,15 @@ Result<ModuleFile> read_module_file(const std::filesystem::path& file) {
   }
   const CheckedFile readable(std::move(*opened));
   return Reader(readable).run();
+}
+
+Result<KeptNotes> read_kept_notes(const std::filesystem::path& file) {
+  auto opened = base::open_file(file);
+  if (!opened) {
+    return open_error(opened.error());
+  }
+  const CheckedFile readable(std::move(*opened));
+  return Reader(readable).run_for_notes();
 }
 
 }  // namespace indurop::schema

@@ -152,6 +152,10 @@ class KeptEmitter {
     out_.line(fmt::format("iec::declare_kept(items, {}, to);", missing_.empty() ? "nullptr" : quoted(missing_)));
     out_.close();
     out_.line();
+    if (!missing_.empty()) {  // for tools that inspect a module file
+      out_.raw("asm(R\"indurop(.pushsection .indurop.undeclarable,\"\",%progbits\n");
+      out_.raw(fmt::format(".ascii {}\n.popsection)indurop\");\n", quoted(missing_)));
+    }
   }
 
  private:

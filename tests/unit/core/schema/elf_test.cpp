@@ -14,6 +14,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "core/schema/kept_notes.h"
 #include "core/schema/schema.h"
 
 namespace indurop::schema {
@@ -112,6 +113,15 @@ TEST_F(Module_file, A_stripped_module_tells_only_variables_that_others_may_use) 
   const auto sut = read_module_file(file.path());
   ASSERT_TRUE(sut.ok()) << sut.error().where;
   EXPECT_THAT(sut.value().variables, testing::ElementsAre("sample_data"));
+  EXPECT_TRUE(read_kept_notes(file.path())->stripped);
+}
+
+TEST_F(Module_file, Says_what_the_declaration_of_kept_variables_cannot_contain) {
+  const auto sut = read_kept_notes(SCHEMA_TEST_MODULE);
+  ASSERT_TRUE(sut.ok()) << sut.error().where;
+  EXPECT_FALSE(sut->stripped);
+  EXPECT_EQ(sut->undeclarable, "table (an array of more than 1000 addresses)");
+  EXPECT_FALSE(read_kept_notes("/proc/self/status").ok());
 }
 
 TEST_F(Module_file, Programs_and_foreign_libraries_are_distinguished) {

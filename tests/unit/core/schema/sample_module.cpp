@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a generated header leaves in a module, by hand: one schema line and the access records of two variables.
+// What a generated header leaves in a module, by hand: one schema line and the access records of two variables; and what
+// the PLC compiler leaves of variables that it cannot declare.
 
 #include <indurop/detail/variable_access.h>
 
 asm(R"(.pushsection .indurop.schema,"G",%progbits,indurop_schema_sample,comdat
 .ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"a::x\",\"type\":\"double\",\"kind\":\"scalar\"}]}\n"
+.popsection)");
+
+asm(R"(.pushsection .indurop.undeclarable,"",%progbits
+.ascii "table (an array of more than 1000 addresses)"
 .popsection)");
 
 namespace {
