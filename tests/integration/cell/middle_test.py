@@ -30,9 +30,17 @@ def differing(done):
 
 
 def box_of(cell, node, reason):
-    """The file of the black box that was asked for; None: it is not there yet."""
+    """The file of the black box that was asked for; None: it is not complete yet."""
     boxes = json.loads(cell.indurop("blackbox", "list", "--node", node, "-o", "json").stdout)["boxes"]
-    return next((box["file"] for box in boxes if box["reason"] == reason), None)
+    return next((box["file"] for box in boxes if box["reason"] == reason and is_closed(box["file"])), None)
+
+
+def is_closed(file):
+    """An MCAP file ends as it begins."""
+    with open(file, "rb") as recording:
+        magic = recording.read(8)
+        recording.seek(-len(magic), os.SEEK_END)
+        return recording.tell() > 0 and recording.read() == magic
 
 
 def keep_box(cell, node, file):
