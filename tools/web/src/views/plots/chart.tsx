@@ -23,7 +23,7 @@ export interface Line {
   part: Part | null;
 }
 
-// The tick of a recording that is looked at.
+// The tick of a recording that is shown.
 export interface Stepped {
   time: number;  // s since 1970
   name: string;

@@ -50,7 +50,7 @@ function label({ name, reason, wall_ns, black_box }: RecordingFile): string {
   return `${clock(wall_ns)}  ${name}${black_box && reason ? `: ${reason}` : ""}`;
 }
 
-// The tick that is looked at, as shown in charts.
+// The tick that was selected, as shown in charts.
 function stepped({ tick, end_ns, numbers }: RecordedTick): Stepped {
   return { time: end_ns / 1e9, name: `tick ${tick}`, numbers: new Map(numbers.map(({ name, value }) => [name, value ?? NaN])) };
 }
