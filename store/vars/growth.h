@@ -64,7 +64,7 @@ class Growth {
  private:
   struct Place {
     schema::Variable variable;  // as it was declared
-    DirectoryEntry entry;
+    DirectoryEntry entry{};
   };
   struct Area {
     std::uint64_t offset = 0;
