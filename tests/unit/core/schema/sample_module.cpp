@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a generated header leaves in a module, by hand: one schema line and the access records of two variables; and what
-// the PLC compiler leaves of variables that it cannot declare.
+// What a generated header leaves in a module, by hand: one schema line and the access records of two variables; and
+// what the PLC compiler leaves of variables that it cannot declare.
 
 #include <indurop/detail/variable_access.h>
 
@@ -8,9 +8,9 @@ asm(R"(.pushsection .indurop.schema,"G",%progbits,indurop_schema_sample,comdat
 .ascii "{\"schema\":1,\"abi\":1,\"variables\":[{\"name\":\"a::x\",\"type\":\"double\",\"kind\":\"scalar\"}]}\n"
 .popsection)");
 
-asm(R"(.pushsection .indurop.undeclarable,"",%progbits
+asm(R"asm(.pushsection .indurop.undeclarable,"",%progbits
 .ascii "table (an array of more than 1000 addresses)"
-.popsection)");
+.popsection)asm");
 
 namespace {
 struct Both {
