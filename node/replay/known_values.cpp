@@ -16,6 +16,7 @@ void ReplayedModules::look_ahead() {
   struct Runs {
     bool any = false;
     bool gap = false;
+    bool lacks = false;  // it reads a variable that the recording does not have
     std::uint64_t next = 0;
   };
   std::vector<Runs> runs(modules_.size());
@@ -28,10 +29,16 @@ void ReplayedModules::look_ahead() {
     return !known.ever_recorded && recorded->has_values_of(known.variable);
   };
   std::ptrdiff_t unrecorded = 0;
+  std::ptrdiff_t unseen = 0;  // modules that lack an input, and may have no runs in the recording
   for (const auto& module : modules_) {
+    const bool lacks = module->runs && std::any_of(module->known.begin(), module->known.end(), [&](const auto& known) {
+                         return known.read && !known.ever_recorded && !may_follow(known);
+                       });
+    runs[module->index].lacks = lacks;
+    unseen += lacks ? 1 : 0;
     unrecorded += module->runs ? std::count_if(module->known.begin(), module->known.end(), may_follow) : 0;
   }
-  while (unrecorded > 0) {
+  while (unrecorded > 0 || unseen > 0) {
     auto item = recorded->next();
     if (!item) {
       continue;  // known when it is replayed
@@ -42,6 +49,7 @@ void ReplayedModules::look_ahead() {
     if (const auto* run = std::get_if<RecordedRun>(&**item); run != nullptr) {
       if (const ReplayedModule* module = of_recording(run->words.module); module != nullptr) {
         Runs& of = runs[module->index];
+        unseen -= of.lacks && !of.any ? 1 : 0;
         of.gap = of.gap || (of.any && run->words.tail.number != of.next);
         of.any = true;
         of.next = run->words.tail.number + 1;
