@@ -104,7 +104,8 @@ std::uint32_t Arrivals::add(One& one, const scheduler::ModuleSetup& setup) {
   parts_.config.modules.push_back(next_->config.modules[one.place]);
   parts_.libraries.push_back(std::move(one.library));
   parts_.failsafe.add(parts_.config.modules.back());
-  parts_.exchanges.add(next_->check.facts[one.place].file.access);
+  parts_.exchanges.add(next_->check.facts[one.place].file.access,
+                       configured_uses_of(next_->check, one.place, next_->config.modules[one.place].name));
   return *index;
 }
 

@@ -60,7 +60,7 @@ class CandidateCheck {
     candidate_.variables = VariableChange::of(task_.store, candidate_.library.uses(), facts.schema->variables);
     if (!task_.others.empty()) {
       for (const std::string& text :
-           objections(candidate_.variables, {task_.store, task_.config, task_.others, task_.index})) {
+           objections(candidate_.variables, {task_.store, task_.config, task_.others, task_.configured, task_.index})) {
         error(text + "; restart the node with the new version");
       }
     }

@@ -36,6 +36,7 @@ struct CandidateTask {
   bool may_grow = false;         // it may bring variables that the store does not have
   // Of all modules, if it may also change types of variables that no other one uses; empty: it may not.
   std::span<const ModuleLibrary> others = {};
+  std::span<const ConfiguredUses> configured = {};  // of the same
 };
 
 struct Candidate {

@@ -18,7 +18,7 @@ constexpr std::chrono::milliseconds kPreparingPoll{1};
 }  // namespace
 
 Exchanges::Exchanges(const Parts& parts, const config::CheckResult& check, const Phases& phases)
-    : context_{parts, phases, std::vector<AllowedAccess>(parts.config.modules.size()),
+    : context_{parts, phases, std::vector<AllowedAccess>(parts.config.modules.size()), {},
                {},    {},     Retired(parts.run, context_.phases, parts.console)},
       set_(context_) {
   for (std::uint32_t i = 0; i < context_.allowed.size(); ++i) {
@@ -26,6 +26,7 @@ Exchanges::Exchanges(const Parts& parts, const config::CheckResult& check, const
       context_.allowed[i] = check.facts[i].file.access;
       context_.parts.libraries[i].set_uses(uses_of(check.facts[i]));
     }
+    context_.configured.push_back(configured_uses_of(check, i, parts.config.modules[i].name));
     begin_version(i);
   }
 }
@@ -37,8 +38,9 @@ void Exchanges::begin_version(std::uint32_t module) {
   record(module).version.store(digest.empty() ? 0 : 1);
 }
 
-void Exchanges::add(const AllowedAccess& access) {
+void Exchanges::add(const AllowedAccess& access, ConfiguredUses configured) {
   context_.allowed.push_back(access);
+  context_.configured.push_back(std::move(configured));
   begin_version(static_cast<std::uint32_t>(context_.files.size()));
 }
 

@@ -31,8 +31,9 @@ class Exchanges {
   void end();
   // Returns true while it is not settled which version of the module runs.
   [[nodiscard]] bool is_open(std::uint32_t module) const noexcept;
-  // A module was added, as the next one of the run block. `access`: what it may read and write.
-  void add(const AllowedAccess& access);
+  // A module was added, as the next one of the run block. `access`: what it may read and write; `configured`: what it
+  // uses by the configuration.
+  void add(const AllowedAccess& access, ConfiguredUses configured);
   // Returns "module press is being exchanged"; empty: none is.
   [[nodiscard]] std::string activity() const;
 

@@ -41,7 +41,8 @@ void ModuleExchange::begin(const operate::ReloadRequest& request) {
       CandidateTask{context_.parts.config, module_,
                     request_.file.empty() ? context_.files[module_] : std::filesystem::path(request_.file),
                     context_.parts.store, context_.allowed[module_], running(), module_, context_.parts.may_grow,
-                    held_ || context_.parts.keeps_types ? std::span<const ModuleLibrary>() : context_.parts.libraries});
+                    held_ || context_.parts.keeps_types ? std::span<const ModuleLibrary>() : context_.parts.libraries,
+                    context_.configured});
 }
 
 void ModuleExchange::begin_back(scheduler::Exchange::Reason reason) {
@@ -66,8 +67,8 @@ void ModuleExchange::begin_back(scheduler::Exchange::Reason reason) {
   if (variables_.changes_types()) {
     carry_.carry_between_runs();
   }
-  const auto against =
-      objections(variables_, {context_.parts.store, context_.parts.config, context_.parts.libraries, module_});
+  const auto against = objections(variables_, {context_.parts.store, context_.parts.config, context_.parts.libraries,
+                                               context_.configured, module_});
   if (!against.empty()) {
     context_.parts.console.warning("module {}: the previous version cannot run: {}", record().name, against.front());
     answer(CommandResult::Refused, against.front());

@@ -45,6 +45,7 @@ struct ExchangeContext {
   ExchangeParts parts;
   Phases phases;                                    // their faults have no effect on the plant
   std::vector<AllowedAccess> allowed;               // by module
+  std::vector<ConfiguredUses> configured;           // by module
   std::vector<std::filesystem::path> files;         // by module: that of the configuration, or of a later deployment
   std::map<std::uint32_t, ModuleLibrary> previous;  // by module; started and not stopped
   Retired retired;

@@ -315,6 +315,9 @@ void ModuleExchange::end() {
   }
   const bool runs =
       exchange_ != nullptr && exchange_->step() != Exchange::Step::Waiting && exchange_->step() != Exchange::Step::Back;
+  if (runs) {
+    variables_.follow(context_.parts.store);  // what is retained is saved after this
+  }
   if (runs != exchanged_) {
     std::swap(running(), other_);  // stop() of the version that ran last is called with the others
     exchanged_ = runs;

@@ -122,6 +122,9 @@ bool VariableChange::prepare(vars::Store& store, scheduler::Exchange::Settings& 
   }
   for (const Changed& one : changed_) {
     void* const place = store.place(one.from.name_hash(), one.from.type_hash);
+    if (place == nullptr) {
+      return false;
+    }
     settings.zeros.push_back(&abi::forces_offset_of(place, one.from.kind));
   }
   return true;
@@ -176,7 +179,8 @@ namespace {
 std::string objection(const VariableChange::Changed& one, const TypeUsers& users) {
   const std::uint64_t hash = one.from.name_hash();
   for (std::size_t i = 0; i < users.libraries.size(); ++i) {
-    if (i != users.module && users.libraries[i].uses().contains(hash)) {
+    const bool uses = users.libraries[i].uses().contains(hash) || users.configured[i].contains(hash);
+    if (i != users.module && uses) {
       return fmt::format("module {}, which stays, uses its layout", users.config.modules[i].name);
     }
   }
@@ -195,6 +199,21 @@ std::string objection(const VariableChange::Changed& one, const TypeUsers& users
 }
 
 }  // namespace
+
+ConfiguredUses configured_uses_of(const config::CheckResult& check, std::size_t index, const std::string& module) {
+  ConfiguredUses uses;
+  const auto names_it = [&module](const std::vector<std::string>& modules) {
+    return std::find(modules.begin(), modules.end(), module) != modules.end();
+  };
+  for (const config::VariableUse& use : check.uses) {
+    const std::uint64_t hash = abi::fnv1a64(use.name.data(), use.name.size());
+    const bool by_code = index < check.facts.size() && check.facts[index].file.access.contains(hash);
+    if (!by_code && (names_it(use.readers) || names_it(use.writers))) {
+      uses.insert(hash);
+    }
+  }
+  return uses;
+}
 
 std::vector<std::string> objections(const VariableChange& change, const TypeUsers& users) {
   std::vector<std::string> all;

@@ -4,12 +4,15 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "config/check/check.h"
 #include "config/model/config.h"
 #include "core/schema/schema.h"
 #include "node/modules/module_library.h"
@@ -66,13 +69,19 @@ class VariableChange {
   std::optional<vars::NextCatalog> next_;
 };
 
+// Variables that a module uses by the configuration (ioconfig.xml, <access>) and not by its code, whatever its version.
+using ConfiguredUses = std::set<std::uint64_t>;
+// `index`: of the module in the checked configuration.
+ConfiguredUses configured_uses_of(const config::CheckResult& check, std::size_t index, const std::string& module);
+
 // Why types cannot change, one line for each variable: another module that stays uses its present layout, it is forced,
 // or it has a fail-safe value. All are borrowed.
 struct TypeUsers {
   const vars::Store& store;
   const config::Config& config;
-  std::span<const ModuleLibrary> libraries;  // the versions that run
-  std::uint32_t module = 0;                  // that changes them
+  std::span<const ModuleLibrary> libraries;    // the versions that run
+  std::span<const ConfiguredUses> configured;  // by module
+  std::uint32_t module = 0;                    // that changes them
 };
 std::vector<std::string> objections(const VariableChange& change, const TypeUsers& users);
 

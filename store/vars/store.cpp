@@ -371,7 +371,8 @@ Status Store::reserve(std::span<const schema::Variable> variables) {
   return impl_->growth->reserve(impl_->index(), variables);
 }
 void* Store::place(std::uint64_t name_hash, std::uint64_t type_hash) const {
-  return impl_->growth != nullptr ? impl_->growth->place(name_hash, type_hash) : entry(name_hash, type_hash);
+  void* const known = entry(name_hash, type_hash);
+  return known != nullptr || impl_->growth == nullptr ? known : impl_->growth->place(name_hash, type_hash);
 }
 Growth& Store::growth() noexcept {
   return *impl_->growth;
@@ -392,7 +393,6 @@ void Store::announce(NextCatalog next) {
 void Store::beat(rt::MonoTime now) noexcept {
   impl_->header().heartbeat_ns.store(rt::to_ns(now), std::memory_order_relaxed);
 }
-
 void Store::prefault() const noexcept {
   impl_->file.prefault();
 }

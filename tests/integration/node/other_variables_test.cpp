@@ -164,7 +164,25 @@ TEST_F(OtherTypes, Are_refused_with_the_field_where_a_module_that_stays_uses_the
   EXPECT_EQ(indurop({"get", "nt_layout::axis_before", "--node", node()}).code, 1);
 }
 
-TEST_F(OtherTypes, Are_refused_for_forced_variables_and_those_with_fail_safe_values) {
+TEST_F(OtherTypes, Are_refused_where_the_configuration_says_that_a_module_uses_the_variable) {
+  Module named = kOther;
+  named.more = "<access><read>nt_layout::axis</read></access>";
+  start_and_wait({named, axis("layout")});
+  ASSERT_TRUE(runs_reach("layout", 10));
+  const Outcome done = reload({"layout", layout("wide")});
+  EXPECT_EQ(done.code, 4) << done.err;
+  EXPECT_CONTAINS(done.err, ", which stays, uses its layout");
+}
+
+TEST_F(OtherTypes, Are_refused_for_variables_with_fail_safe_values) {
+  Module guarded = axis("layout");
+  guarded.more += "<failsafe variable=\"nt_layout::axis.x\">0</failsafe>";
+  start_and_wait({kOther, guarded});
+  ASSERT_TRUE(runs_reach("layout", 10));
+  EXPECT_CONTAINS(reload({"layout", layout("wide")}).err, "has a fail-safe value for it");
+}
+
+TEST_F(OtherTypes, Are_refused_for_forced_variables) {
   start_and_wait({kOther, axis("layout")});
   ASSERT_TRUE(runs_reach("layout", 10));
   ASSERT_EQ(indurop({"force", "nt_layout::axis.x", "5", "--node", node()}).code, 0);
