@@ -7,7 +7,7 @@ namespace indurop::deploy {
 
 void BoardChange::resume() {
   keep_folder_of_node();
-  BoardExchange::settle(board_, state_.committed().current);
+  BoardExchange::settle(board_, state_);
 }
 
 void BoardChange::begin() {

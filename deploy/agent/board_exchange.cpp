@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <map>
 #include <utility>
 
@@ -158,7 +159,7 @@ bool BoardExchange::place() {
   }
   if (request_) {
     const Status written = state_.reserve().use_for([this] { return operate::write_set_request(board_, *request_); });
-    if (!written && stage_ == Stage::Deciding) {
+    if (!written && stage_ == Stage::Deciding && written.error().sys_errno == ENOSPC) {
       return false;  // it has to receive this, so it is repeated until there is space
     }
     if (!written) {
@@ -318,9 +319,10 @@ operate::SetReport BoardExchange::report_of_node() const {
   return report && report->node_pid == run().node_pid.load() ? *std::move(report) : operate::SetReport();
 }
 
-void BoardExchange::settle(const std::string& board, const std::string& deployment) {
+void BoardExchange::settle(const std::string& board, const AgentState& state) {
   const auto file = vars::running_node(board) > 0 ? run_of(board) : std::nullopt;
-  if (!file || !operate::write_set_request(board, {SetRequest::Act::Decide, deployment, {}, 0, ""})) {
+  const SetRequest decision{SetRequest::Act::Decide, state.committed().current, {}, 0, ""};
+  if (!file || !state.reserve().use_for([&] { return operate::write_set_request(board, decision); })) {
     return;
   }
   scheduler::ModuleRecord& first = run_block(*file).modules()[0];

@@ -58,7 +58,7 @@ class BoardExchange {
   [[nodiscard]] std::int64_t grid_ns() const noexcept { return grid_ns_; }
 
   // Lets a node that outlived its agent run this deployment again, if it knows it. Waits for that, up to two seconds.
-  static void settle(const std::string& board, const std::string& deployment);
+  static void settle(const std::string& board, const AgentState& state);
 
  private:
   enum class Stage { Idle, Loading, Loaded, Entering, Entered, Deciding };

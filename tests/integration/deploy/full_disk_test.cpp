@@ -98,6 +98,18 @@ TEST_F(FullDisk, When_a_board_is_healthy_in_its_trial) {
   ends_alike(deployer.finish(), next_);
 }
 
+// Its node goes on meanwhile, and the agent adopts it.
+TEST_F(FullDisk, When_an_agent_is_killed) {
+  fill();
+  stop_agent("a", SIGKILL);
+  start_agent("a");
+  EXPECT_TRUE(both_run_the_committed());
+  make_space();
+  const Outcome again = deploy(next_);
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(both_run(again.json()["deployment"]));
+}
+
 TEST_F(FullDisk, When_power_comes_back) {
   fill();
   lose("a");
