@@ -23,7 +23,7 @@ Fault GroupPush::begin(const PushWay& way) noexcept {
 }
 
 void GroupPush::end() noexcept {
-  if (on()) {
+  if (on() && robot_.axes[axis_].state() == AxisState::ContinuousMotion) {
     robot_.axes[axis_].halt();
   }
 }

@@ -67,6 +67,9 @@ void Group::run_motion(Signals& signals) noexcept {
     queue_.feed();
     begin_next(false);
   }
+  if (!robot_.job.running()) {
+    job_motions_.end_push();  // the job has failed elsewhere: nothing else ends what it pushes with
+  }
   take_plan();
   if (!job_motions_.step_push()) {
     follow_path();

@@ -192,7 +192,9 @@ Profile MotionTiming::profile() const noexcept {
 // s, minimum duration as limited by the tool.
 double MotionTiming::least() const noexcept {
   const Segment& s = draft_.segment;
-  return s.chain != nullptr ? s.chain->at_speed() : Profile::to_position({}, s.length, 0, s.most).duration();
+  // The speed of a chain does not include a wave across it.
+  return s.chain != nullptr ? std::max(s.chain->at_speed(), s.length / s.most.velocity)
+                            : Profile::to_position({}, s.length, 0, s.most).duration();
 }
 
 // Returns whether the whole motion takes unacceptably longer than the tool's speed would allow. A singular position

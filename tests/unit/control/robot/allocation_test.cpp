@@ -66,6 +66,16 @@ TEST(RobotAllocation, Neither_does_a_path_that_is_corrected) {
   EXPECT_EQ(out.job.state, JobState::Ended) << message;
 }
 
+TEST(RobotAllocation, Neither_does_one_with_a_wave) {
+  Outputs out;
+  std::string message;
+  const std::string job =
+      "POINT A = POSE 500 100 400 RPY 180 0 180\nPOINT B = POSE 500 -100 400 RPY 180 0 180\nPOINT C = POSE 550 0 400 "
+      "RPY 180 0 180\nMOVJ A\nWEAVE TRIANGLE WIDTH 6 mm LENGTH 60 mm\nMOVL B\nMOVC C A\nMOVS C B A\n";
+  EXPECT_EQ(allocations_of(cell_urdf(), job, out, message), 0U);
+  EXPECT_EQ(out.job.state, JobState::Ended) << message;
+}
+
 TEST(RobotAllocation, Neither_does_one_whose_torques_are_limited) {
   Outputs out;
   std::string message;

@@ -147,6 +147,21 @@ TEST_F(Job_push, A_stopped_job_pushes_again_and_returns_to_where_it_began) {
   EXPECT_NEAR(sut->q, from, 1e-4);
 }
 
+// An output of the job that cannot be computed is an error of the job, although its push is not at fault.
+TEST_F(Job_push, An_error_elsewhere_in_the_job_ends_it) {
+  start("FOLLOW OUT = 1 / (1 - I4)\nPUSH AXIS 1 TORQUE 40 Nm SPEED 20 deg/s FOR 5s\n");
+  ASSERT_TRUE(sut->until([&] { return sut->against_wall() > 20; }));
+  *values["I4"] = 1;
+  ASSERT_TRUE(sut->until([&] { return ended(); }));
+  EXPECT_EQ(sut->cell.out.error, ErrorCode::Line);
+  EXPECT_THAT(message(), HasSubstr("main.job:1: "));
+  ASSERT_TRUE(sut->until([&] { return !pushes(); }));
+  sut->run(0.5);
+  EXPECT_EQ(sut->broken, "");
+  EXPECT_EQ(sut->commanded().mode, 8);
+  EXPECT_EQ(sut->commanded().torque, 0);
+}
+
 TEST_F(Job_push, A_hold_stops_pushing) {
   start("PUSH AXIS 1 TORQUE 40 Nm SPEED 20 deg/s FOR 0.5s\nSET OUT = 1\n");
   ASSERT_TRUE(sut->until([&] { return sut->against_wall() > 20; }));
