@@ -58,9 +58,17 @@ void Motions::cancel(int goal) {
   }
 }
 
+std::string Motions::obstacle(Arm::Locked locked) const {
+  std::string why = arm_->obstacle(locked);
+  // The number of axes is known once the robot task has started.
+  return !why.empty() || arm_->size() == joints_->size()
+             ? why
+             : fmt::format("the URDF has {} joints, the robot {} axes", joints_->size(), arm_->size());
+}
+
 GoalProblem Motions::try_to_begin(const RosGoal& asked, Time now) {
   arm_->read();
-  if (std::string why = arm_->obstacle(Arm::Locked::ToTime); !why.empty()) {
+  if (std::string why = obstacle(Arm::Locked::ToTime); !why.empty()) {
     return {GoalCode::InvalidGoal, std::move(why)};
   }
   if (!arm_->stands()) {
@@ -116,8 +124,8 @@ void Motions::set_points(const RosGoal& asked, Time now) {
   }
   const auto positions = axes_ahead(asked, *joints_, kAhead);
   std::string why = positions ? std::string() : positions.error().text;
-  if (why.empty() && !servo_.is_active()) {
-    why = arm_->obstacle(Arm::Locked::No);
+  if (why.empty() && (!servo_.is_active() || arm_->size() != joints_->size())) {
+    why = obstacle(Arm::Locked::No);
   }
   if (why.empty()) {
     why = servo_.move(*positions, now);

@@ -58,6 +58,8 @@ class Motions {
   };
   void begin(const Wanted& wanted, Time now);
   void end(int goal, RosOutcome outcome, GoalCode code, const std::string& text);
+  // As that of the arm; or the robot has another number of axes than joints are known.
+  [[nodiscard]] std::string obstacle(Arm::Locked locked) const;
   // Returns why the trajectory was not begun; empty: it was.
   GoalProblem try_to_begin(const RosGoal& asked, Time now);
 

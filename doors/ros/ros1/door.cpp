@@ -231,6 +231,7 @@ Result<void, base::Problem> Ros1Door::run(base::StopSignal& stop) {
   const Time period(static_cast<std::int64_t>(1e9 / options_.rate_hz));
   while (stop.wait(kTurn) == 0) {
     if (!session_) {
+      ros_.spin();  // what was wanted while the node is away is rejected now, and not executed when it is back
       if (const auto begun = begin(); !begun && !wait_for(stop, begun.error().text)) {
         break;
       }
