@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/modules/module_memory.h"
 
-#include <csetjmp>
-#include <cstring>
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cstring>
 #include <optional>
 
-#include "core/rt/guard.h"
 #include "node/modules/grown_array.h"
+#include "store/tape/process_keyframes.h"
+#include "store/tape/state_copy.h"
 
 namespace indurop::node {
 namespace {
 
-constexpr std::string_view kByFunctions = "bytes of its save()";
 constexpr std::string_view kPlaces = "place of each of these";
 
 struct FormLine {
@@ -45,22 +43,6 @@ StateAddress address_in(const std::byte* bytes, std::size_t size) noexcept {
   return address;
 }
 
-// A run may write what is being read: its bytes are discarded then, see KeyframePart.
-[[gnu::no_sanitize("thread")]] void copy_racing(std::byte* to, const void* from, std::size_t size) noexcept {
-  const auto* const bytes = static_cast<const volatile std::byte*>(from);
-  std::size_t i = 0;
-  for (; i < size && (reinterpret_cast<std::uintptr_t>(from) + i) % sizeof(std::uint64_t) != 0; ++i) {
-    to[i] = bytes[i];
-  }
-  for (; i + sizeof(std::uint64_t) <= size; i += sizeof(std::uint64_t)) {
-    const std::uint64_t word = *reinterpret_cast<const volatile std::uint64_t*>(bytes + i);
-    std::memcpy(to + i, &word, sizeof word);
-  }
-  for (; i < size; ++i) {
-    to[i] = bytes[i];
-  }
-}
-
 }  // namespace
 
 // An item as a keyframe has it.
@@ -84,7 +66,7 @@ ModuleMemory::ModuleMemory(const StateDescriptor& declared)
     most_ += bytes;
   }
   if (uses_functions()) {
-    form_ += fmt::format("\t{}\t{}\n", kByFunctions, declared.most);
+    form_ += fmt::format("\t{}\t{}\n", tape::kFormOfFunctions, declared.most);
     most_ += declared.most;
   }
 }
@@ -143,7 +125,7 @@ std::string ModuleMemory::led_to(const Item& item) const {
 std::size_t ModuleMemory::save(std::span<std::byte> to) const {
   std::size_t at = 0;
   for (const Item& item : items_) {
-    copy_racing(to.data() + at, item.address, item.bytes());
+    tape::copy_racing(to.data() + at, item.address, item.bytes());
     if (is_astray(item, to.data() + at)) {
       return 0;
     }
@@ -156,29 +138,8 @@ std::size_t ModuleMemory::save(std::span<std::byte> to) const {
   if (!uses_functions()) {
     return at;
   }
-  const std::size_t by_function = save_by_function(to.subspan(at, functions_.most));
+  const std::size_t by_function = tape::save_by_function(functions_, to.subspan(at, functions_.most));
   return by_function == 0 ? 0 : at + by_function;
-}
-
-// A run that begins meanwhile may leave it something inconsistent: a fault of it is one more reason to try again.
-std::size_t ModuleMemory::save_by_function(std::span<std::byte> to) const {
-  rt::Guard guard;
-  guard.enter();
-  volatile std::size_t written = 0;
-  if (sigsetjmp(guard.target(), 0) != 0) {
-    guard.recovered();
-    guard.leave();
-    return 0;
-  }
-  guard.arm();
-  try {
-    written = functions_.save(to.data(), to.size());
-  } catch (...) {
-    written = 0;
-  }
-  guard.disarm();
-  guard.leave();
-  return written <= to.size() ? written : 0;
 }
 
 const ModuleMemory::Item* ModuleMemory::find(const Old& old) const noexcept {
@@ -195,7 +156,7 @@ std::vector<std::string> ModuleMemory::restore(std::string_view form, std::span<
   std::span<const std::uint8_t> places;
   bool by_function = !uses_functions();
   while (const auto line = next_line(form)) {
-    if (line->type == kByFunctions) {
+    if (line->type == tape::kFormOfFunctions) {
       by_function = uses_functions() && functions_.restore(bytes.data(), bytes.size());
       break;  // they are the last ones
     }

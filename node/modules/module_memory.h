@@ -76,7 +76,6 @@ class ModuleMemory {
   [[nodiscard]] std::vector<std::string> restore(std::span<const Old> all, std::span<const std::uint8_t> places) const;
   static bool lead(const Item& item, const Relocation& moved);
   [[nodiscard]] bool is_astray(const Item& item, const std::byte* bytes) const noexcept;
-  [[nodiscard]] std::size_t save_by_function(std::span<std::byte> to) const;
 
   bool declared_ = false;
   std::vector<Item> items_;

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/rt/clock.h"
-#include "core/rt/guard.h"
 #include "store/runtime/process.h"
+#include "store/tape/state_copy.h"
 
 // A process module that declares what it keeps defines this function; the linker then exports it, because this library
 // refers to it.
@@ -55,36 +55,6 @@ std::optional<std::string> form_of(const StateDescriptor& declared, std::uint64_
     bytes += declared.most;
   }
   return declared.missing == nullptr ? std::optional(form) : std::nullopt;
-}
-
-// A run may write what is being read: its bytes are discarded then.
-[[gnu::no_sanitize("thread")]] void copy_racing(std::byte* to, const void* from, std::size_t size) noexcept {
-  const auto* const bytes = static_cast<const volatile std::byte*>(from);
-  for (std::size_t i = 0; i < size; ++i) {
-    to[i] = bytes[i];
-  }
-}
-
-// Calls save() of the module. A run that begins meanwhile may leave it something inconsistent: a fault of it is one
-// more reason to try again. Returns the bytes written, 0: it cannot now.
-std::size_t save(const StateDescriptor& declared, std::span<std::byte> to) {
-  rt::Guard guard;
-  guard.enter();
-  volatile std::size_t written = 0;
-  if (sigsetjmp(guard.target(), 0) != 0) {
-    guard.recovered();
-    guard.leave();
-    return 0;
-  }
-  guard.arm();
-  try {
-    written = declared.save(to.data(), to.size());
-  } catch (...) {
-    written = 0;
-  }
-  guard.disarm();
-  guard.leave();
-  return written <= to.size() ? written : 0;
 }
 
 }  // namespace
@@ -147,10 +117,11 @@ bool KeptThread::take() {
   std::size_t at = 0;
   for (std::uint32_t i = 0; i < declared_.item_count; ++i) {
     const StateItem item = item_of(declared_, i);
-    copy_racing(room.data() + at, item.address, item.size);
+    tape::copy_racing(room.data() + at, item.address, item.size);
     at += item.size;
   }
-  const std::size_t by_functions = has_functions(declared_) ? save(declared_, room.subspan(at, declared_.most)) : 0;
+  const std::size_t by_functions =
+      has_functions(declared_) ? tape::save_by_function(declared_, room.subspan(at, declared_.most)) : 0;
   head.bytes = at + by_functions;
   std::atomic_thread_fence(std::memory_order_acquire);
   const bool whole =

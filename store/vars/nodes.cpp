@@ -144,21 +144,6 @@ std::string usual_node(const std::vector<std::string>& names) {
   return names.size() == 1 ? names.front() : "";
 }
 
-namespace {
-
-std::vector<std::string> files_beginning_with(const std::string& beginning) {
-  std::vector<std::string> files;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(kShmDirectory, error)) {
-    if (std::string name = entry.path().filename(); name.starts_with(beginning)) {
-      files.push_back(std::move(name));
-    }
-  }
-  return files;
-}
-
-}  // namespace
-
 Status remove_node(const std::string& node) {
   pid_t holder = 0;
   const auto lock = NodeLock::acquire(node, holder);
@@ -173,7 +158,7 @@ Status remove_node(const std::string& node) {
                                  external_file(node),     keyframe_file(node),
                                  replay_input_file(node), block_file(node) + ".kernel"};
   std::ranges::move(pool_files(node), std::back_inserter(names));
-  std::ranges::move(files_beginning_with(keyframe_file(node) + "."), std::back_inserter(names));  // of processes
+  std::ranges::move(shm_files_beginning_with(keyframe_file(node) + "."), std::back_inserter(names));  // of processes
   names.push_back(lock_file(node));  // the last one: until then no other process can start a node of this name
   for (const std::string& name : names) {
     for (const Status& status : {remove_unfinished(name), remove_shm_file(name)}) {

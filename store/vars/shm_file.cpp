@@ -171,8 +171,7 @@ std::string pool_file(const std::string& node, std::uint64_t name_hash) {
   return "indurop." + node + ".pool." + hash;
 }
 
-std::vector<std::string> pool_files(const std::string& node) {
-  const std::string beginning = "indurop." + node + ".pool.";
+std::vector<std::string> shm_files_beginning_with(const std::string& beginning) {
   std::vector<std::string> files;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(kShmDirectory, error)) {
@@ -181,6 +180,10 @@ std::vector<std::string> pool_files(const std::string& node) {
     }
   }
   return files;
+}
+
+std::vector<std::string> pool_files(const std::string& node) {
+  return shm_files_beginning_with("indurop." + node + ".pool.");
 }
 
 std::uint64_t store_number(const std::string& node) noexcept {

@@ -33,6 +33,8 @@ std::string keyframe_file(const std::string& node);                       // ind
 std::string replay_input_file(const std::string& node);                   // indurop.<node>.retold
 std::string lock_file(const std::string& node);                           // indurop.<node>.lock
 std::string pool_file(const std::string& node, std::uint64_t name_hash);  // indurop.<node>.pool.<hash in hex>
+// The files whose names begin like this. Not real-time safe.
+std::vector<std::string> shm_files_beginning_with(const std::string& beginning);
 // The files of all pools of a node, finished or not. Not real-time safe.
 std::vector<std::string> pool_files(const std::string& node);
 
