@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "config/check/csv_table.h"
 #include "config/check/io_binding.h"
@@ -58,6 +59,12 @@ std::optional<std::filesystem::path> io_config_of(const Module& module, const st
     return std::nullopt;
   }
   return (folder / config->value).lexically_normal();
+}
+
+std::vector<IoDevice> io_devices_of(const Module& module, const std::filesystem::path& folder) {
+  const auto file = io_config_of(module, folder);
+  ReadIo read = file ? read_io_config(*file) : ReadIo();
+  return read.ok() ? std::move(read.config.devices) : std::vector<IoDevice>();
 }
 
 std::vector<std::filesystem::path> io_files_of(const Module& module, const std::filesystem::path& folder) {

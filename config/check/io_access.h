@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/check/check_parts.h"
+#include "config/model/io_config.h"
 
 namespace indurop::config {
 
@@ -19,6 +20,10 @@ struct IoAccess {
 bool is_io_module(const schema::ModuleFile& file) noexcept;
 // Returns the module's ioconfig.xml; nothing if it names none.
 std::optional<std::filesystem::path> io_config_of(const Module& module, const std::filesystem::path& folder);
+
+// Returns the devices of that file; none if the module names no such file, or it cannot be read: other modules may have
+// a property of this name with another file.
+std::vector<IoDevice> io_devices_of(const Module& module, const std::filesystem::path& folder);
 
 // Returns the module's ioconfig.xml and the files it names, without the board's own files (absolute names). Empty if it
 // is not an I/O module.

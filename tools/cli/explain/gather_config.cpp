@@ -11,7 +11,6 @@
 
 #include "config/check/io_access.h"
 #include "config/check/uses.h"
-#include "config/xml/io_reader.h"
 #include "config/xml/plant_reader.h"
 #include "core/schema/leaf.h"
 #include "scheduler/words.h"
@@ -77,10 +76,7 @@ void add_device(explain::DeviceFact device, const schema::Schema& schema, Facts&
 void add_devices(const config::Config& config, const std::filesystem::path& folder, const schema::Schema& schema,
                  Facts& facts, std::vector<QualityPlace>& places) {
   for (const config::Module& module : config.modules) {
-    const auto file = config::io_config_of(module, folder);
-    // Other modules may have a property of the same name, with a file that is no ioconfig.xml.
-    const config::ReadIo read = file ? config::read_io_config(*file) : config::ReadIo();
-    for (const config::IoDevice& device : read.ok() ? read.config.devices : std::vector<config::IoDevice>()) {
+    for (const config::IoDevice& device : config::io_devices_of(module, folder)) {
       explain::DeviceFact whole{device.name, place_of(device), device.quality, {}, {}};
       for (const config::IoPoint& point : device.points) {
         whole.variables.push_back(point.variable);

@@ -87,12 +87,10 @@ void add_tape(const std::string& node, const vars::Store& store, const std::stri
 // A quality that the tape does not have has not changed for as long as anything is known.
 void add_present_qualities(const vars::Store& store, const std::vector<QualityPlace>& places, Facts& facts) {
   for (const QualityPlace& place : places) {
-    const explain::DeviceFact& device = facts.devices[place.device];
-    const auto item = device.qualities.empty() ? operate::find(store, device.quality) : base::Problem{};
+    const auto item =
+        facts.devices[place.device].qualities.empty() ? operate::find(store, place.variable) : base::Problem{};
     if (const auto bytes = item ? operate::read(store, *item) : base::Problem{}; bytes) {
-      QualityPlace alone = place;
-      alone.offset = 0;
-      alone.add(explain::DeviceFact::kSinceBefore, *bytes, facts);
+      place.add(explain::DeviceFact::kSinceBefore, *bytes, facts);
     }
   }
 }

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "config/check/io_access.h"
-#include "config/xml/io_reader.h"
 #include "config/xml/plant_reader.h"
 #include "tools/client/config/checked_config.h"
 
@@ -31,13 +30,7 @@ std::vector<IoDeviceName> io_devices_of(const std::string& board, const tools::R
   const std::filesystem::path file = tools::fixed_text(run.block().config_file);
   std::vector<IoDeviceName> all;
   for (const config::Module& module : config_of(board, file).modules) {
-    const auto io_file = config::io_config_of(module, file.parent_path());
-    if (!io_file) {
-      continue;
-    }
-    // Other modules may have a property of the same name, with a file that is no ioconfig.xml.
-    const config::ReadIo read = config::read_io_config(*io_file);
-    for (const config::IoDevice& device : read.ok() ? read.config.devices : std::vector<config::IoDevice>()) {
+    for (const config::IoDevice& device : config::io_devices_of(module, file.parent_path())) {
       if (!device.quality.empty()) {
         all.push_back({device.name, device.quality});
       }
