@@ -17,7 +17,7 @@
 
 namespace indurop::tools {
 
-// Prefix of the names of this process's stores, as long as they have one: they are not nodes.
+// Prefix of the names of this process's stores, as long as they have one, and of its replays: they are not nodes.
 std::string remote_store_prefix();
 
 class ReportedBoard {

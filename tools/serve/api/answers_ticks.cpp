@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers for clients that step through a recording: one tick of it, and what modules kept after a tick.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <utility>
@@ -98,7 +97,7 @@ Reply replay_recording(Api& api, const Call& call) {
   if (const auto unnoted = write.begin({{}, true})) {
     return write.failed(*unnoted);
   }
-  const std::string node = fmt::format("replay-{}", ::getpid());
+  const std::string node = tools::remote_store_prefix() + "replay";  // it is no board
   auto replayed = tools::replay_tick(file->path, board, {}, tick, node);
   if (!replayed) {
     return write.failed(status::kConflict, replayed.error().text);

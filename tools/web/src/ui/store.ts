@@ -48,6 +48,7 @@ export function useRequest<T>(key: string, every_ms: number, send: () => Promise
     let ended = false;
     let timer = 0;
     let open = false;
+    let answered = false;
     let repeat = false;  // requested while one was open
     const poll = async () => {
       clearTimeout(timer);
@@ -57,6 +58,7 @@ export function useRequest<T>(key: string, every_ms: number, send: () => Promise
         open = true;
         try {
           const value = await latest.current();
+          answered = true;
           if (!ended) set_state({ key, value, error: "" });
         } catch (error) {
           if (!ended) set_state((before) => ({ key, value: before.key === key ? before.value : null, error: message_of(error) }));
@@ -70,12 +72,14 @@ export function useRequest<T>(key: string, every_ms: number, send: () => Promise
     void poll();
     const poll_if_visible = () => { if (!document.hidden) void poll(); };
     const stop_listening = reconnected.listen(poll_if_visible);
-    document.addEventListener("visibilitychange", poll_if_visible);
+    // What is requested once is not requested again when the page is shown again.
+    const poll_when_shown = () => { if (every_ms || !answered) poll_if_visible(); };
+    document.addEventListener("visibilitychange", poll_when_shown);
     return () => {
       ended = true;
       clearTimeout(timer);
       stop_listening();
-      document.removeEventListener("visibilitychange", poll_if_visible);
+      document.removeEventListener("visibilitychange", poll_when_shown);
     };
   }, [key, every_ms]);
   const current = state.key === key;

@@ -3,7 +3,7 @@
 
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type uPlot from "uplot";
-import { get } from "../../api/http";
+import { get, message_of } from "../../api/http";
 import type { RecordedTick, RecordedValues, RecordingContents, RecordingFile } from "../../api/types";
 import { change_query } from "../../ui/address";
 import { clock, span } from "../../ui/format";
@@ -67,6 +67,7 @@ export function Recorded({ charts, name, tick, board }: { charts: string[][]; na
   const [zoomed, set_zoomed] = useState<Shown | null>(null);
   const [marks, set_marks] = useState<number[]>([]);
   const [drawn, set_drawn] = useState(0);
+  const [failed, set_failed] = useState("");  // a step to a time
   const plots = useRef(new Map<number, uPlot>());
   const units = useMemo(() => new Map(inside.value?.channels.flatMap(({ unit, numbers }) => numbers.map((one) => [one, unit] as const))), [inside.value]);
   const wanted = [...new Set(charts.flat())].filter((one) => units.has(one));
@@ -93,7 +94,7 @@ export function Recorded({ charts, name, tick, board }: { charts: string[][]; na
   const go = (to: number) => change_query({ t: String(to) });
   const go_to_time = (at: number) => {
     void get<RecordedTick>(path(name, `/tick?at_ns=${Math.max(0, Math.round(at * 1e9))}&board=${encodeURIComponent(of_board)}`), TIMEOUT_MS)
-      .then((found) => go(found.tick), () => {});
+      .then((found) => { set_failed(""); go(found.tick); }, (error) => set_failed(message_of(error)));
   };
   const shown = (): Shown => zoomed ?? { from: (whole?.begin_ns ?? 0) / 1e9, to: (whole?.end_ns ?? 1e9) / 1e9 };
   const line = (one: string): Line => ({ name: one, part: units.has(one) ? { unit: units.get(one), form: { kind: "f64", size: 8 } } as Part : null });
@@ -122,7 +123,7 @@ export function Recorded({ charts, name, tick, board }: { charts: string[][]; na
       </div>
       {all.value?.recordings.length === 0 && <p class="quiet">There are no recordings. A node writes a black box when a module faults. To show the files of indurop record, start the
         server with: indurop serve --recordings DIR</p>}
-      {[all.error, inside.error, values.error].filter(Boolean).map((text) => <p class="bad" key={text}>{text}</p>)}
+      {[all.error, inside.error, values.error, failed].filter(Boolean).map((text) => <p class="bad" key={text}>{text}</p>)}
       {name && !whole && !inside.error && <Waiting />}
       {whole && (
         <>

@@ -133,7 +133,7 @@ export function TickDetails({ path, board, step }: DetailProps) {
       <h2>Tick {step.tick}</h2>
       <Runs runs={step.runs} />
       {may_replay
-        ? <KeptAfter path={path} board={board} tick={step.tick} />
+        ? <KeptAfter key={`${path} ${board}`} path={path} board={board} tick={step.tick} />
         : <p class="quiet">What modules keep inside is found by running them again, which needs the role program (indurop serve --write).</p>}
     </section>);
 }
