@@ -34,20 +34,35 @@ class Reload : public NodeTest {
   }
   // What the module has counted; -1: between the two values of a run.
   std::int64_t counted() const {
-    const auto output = value<std::int32_t>("nt::output");
-    const auto walked = value<std::int64_t>("nt::walked");
+    const auto store = vars::Store::attach(node(), vars::Mode::ReadOnly);
+    return store ? counted(*store) : -1;
+  }
+  static std::int64_t counted(const vars::Store& store) {
+    const auto output = read<std::int32_t>(store, "nt::output");
+    const auto walked = read<std::int64_t>(store, "nt::walked");
     return output != 0 && std::abs(walked) % output == 0 ? output : -1;
   }
   bool counts_up_to(std::int64_t number) {
     return wait_until([&] { return counted() >= number; });
   }
-  // No run was left out: it has counted each of them, but `lost`.
+  template <class T>
+  static T read(const vars::Store& store, std::string_view name) {
+    T value{};
+    const auto* const entry = store.find(abi::fnv1a64(name.data(), name.size()));
+    EXPECT_TRUE(entry != nullptr && store.read(*entry, 0, {reinterpret_cast<std::uint8_t*>(&value), sizeof value}))
+        << name;
+    return value;
+  }
+  // No run was left out: it has counted each of them, but `lost`. All is read between two runs, so the store is
+  // attached before.
   void expect_all_counted(std::int64_t lost = 0) {
     const auto& record = module("counter");
     EXPECT_EQ(record.skipped.load(), run()->lost_ticks.load());
+    const auto store = vars::Store::attach(node(), vars::Mode::ReadOnly);
+    ASSERT_TRUE(store.ok());
     EXPECT_TRUE(wait_until([&] {
       const auto before = static_cast<std::int64_t>(record.runs.load());
-      const std::int64_t now = counted();
+      const std::int64_t now = counted(*store);
       return now + lost == before && record.runs.load() == static_cast<std::uint64_t>(before);
     })) << counted()
         << " of " << record.runs.load();

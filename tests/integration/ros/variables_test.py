@@ -93,8 +93,9 @@ def test_node_comes_back(setting):
     setting.indurop("stop")
     wait_for(lambda: "waits" in setting.log_of_door(), "it waits")
     setting.start_robot()
-    reader = Reader("/PLC_ROBOT/I14")
-    assert reader.wait().data == 1
+    setting.set("PLC_ROBOT::ROBOT_OVERRIDE", 37)
+    reader = Reader("/PLC_ROBOT/ROBOT_OVERRIDE")
+    wait_for(lambda: reader.message is not None and reader.message.data == 37, "a value of the new node")
 
 
 def test_master_ends(setting, master, door):
