@@ -67,21 +67,25 @@ Fault WaveCheck::check_next() noexcept {
 }
 
 // The wave needs speed and acceleration of the path times its slope, and what its bends need of the speed alone.
-void WaveCheck::finish() noexcept {
-  Segment& s = draft_.segment;
-  s.wave = draft_.wave;
-  const Wave::Steepness wave = s.wave.steepness();
-  const double pace = s.pace();
+LineLimits WaveCheck::bounded(const LineLimits& path) const noexcept {
+  const Wave::Steepness wave = draft_.wave.steepness();
+  const double pace = draft_.segment.pace();
   const double speed =
-      std::min({pace * s.limits.velocity, kSpeed / (wave.slope * of_speed_),
+      std::min({pace * path.velocity, kSpeed / (wave.slope * of_speed_),
                 std::sqrt(kSteady / (wave.bend * of_acceleration_)), std::cbrt(kSteady / (wave.twist * of_jerk_))});
   const double acceleration =
       std::min((1 - kSteady) / (wave.slope * of_acceleration_), kChanging / (3 * wave.bend * speed * of_jerk_));
   const double jerk = kChanging / (wave.slope * of_jerk_);
-  for (LineLimits* limits : {&s.most, &s.limits}) {
-    *limits = {std::min(limits->velocity, speed / pace), std::min(limits->acceleration, acceleration / pace),
-               std::min(limits->jerk, jerk / pace)};
-  }
+  return {std::min(path.velocity, speed / pace), std::min(path.acceleration, acceleration / pace),
+          std::min(path.jerk, jerk / pace)};
+}
+
+void WaveCheck::finish() noexcept {
+  Segment& s = draft_.segment;
+  s.wave = draft_.wave;
+  // Only some places may need the path to be as slow as its limits for a constant speed.
+  s.most = bounded(s.most);
+  s.limits = bounded(s.limits);
   survey_.findings().bound_all(s.most);
 }
 

@@ -24,6 +24,8 @@ class WaveCheck {
 
  private:
   Fault check_next() noexcept;
+  // Limits of the path, `path` without its wave.
+  [[nodiscard]] LineLimits bounded(const LineLimits& path) const noexcept;
   void finish() noexcept;
 
   const Places& places_;

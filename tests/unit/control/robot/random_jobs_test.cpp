@@ -138,7 +138,7 @@ int setting(const char* name, int otherwise) {
 
 TEST_F(Random_jobs, Break_no_limit_whatever_happens) {
   const int first = setting("INDUROP_ROBOT_SEED", 1);
-  const int jobs = setting("INDUROP_ROBOT_JOBS", 1500);
+  const int jobs = setting("INDUROP_ROBOT_JOBS", 600);
   for (int i = 0; i < jobs; ++i) {
     run(static_cast<unsigned>(first + i));
     if (HasFatalFailure()) {
