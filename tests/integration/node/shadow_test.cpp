@@ -2,6 +2,7 @@
 // indurop reload --shadow: a new version repeats the runs of the running one, and what it writes is compared. What is
 // expected is computed by hand from the constants that differ.
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -29,6 +30,10 @@ class Shadow : public NodeTest {
                                     "--shadow", "1500ms",  "--health", "0s"};
     all.insert(all.end(), more.begin(), more.end());
     return indurop(all);
+  }
+  static bool has_file(const std::filesystem::path& folder, const std::string& name) {
+    const std::filesystem::recursive_directory_iterator all(folder);
+    return std::any_of(begin(all), end(all), [&name](const auto& one) { return one.path().filename() == name; });
   }
   // The variable of a report, and the report.
   static nlohmann::json variable(const nlohmann::json& report, const std::string& name) {
@@ -119,11 +124,16 @@ TEST_F(Shadow, What_it_wrote_itself_is_its_own_and_what_others_write_is_not) {
 TEST_F(Shadow, A_value_that_is_set_meanwhile_counts_for_both) {
   start_and_wait({kOther, {.file = "adder.so", .name = "counter", .priority = 2}});
   ASSERT_TRUE(runs_reach("counter", 50));
+  const std::filesystem::path recordings = folder() / "recordings";
+  std::filesystem::create_directory(recordings);
+  Environment where = environment();
+  where.variables.push_back("TMPDIR=" + recordings.string());
   Program sut(
       {INDUROP_PROGRAM, "reload", "counter", built("adder_more"), "--node", node(), "--shadow", "3s", "-o", "json"},
-      environment());
+      where);
+  ASSERT_TRUE(wait_until([&] { return has_file(recordings, "runs.mcap"); }));
   const std::uint64_t before = module("counter").runs.load();
-  ASSERT_TRUE(runs_reach("counter", before + 1500));
+  ASSERT_TRUE(runs_reach("counter", before + 500));
   ASSERT_EQ(indurop({"set", "sum", "1e6", "--node", node()}).code, 0);
   const Outcome done = sut.finish();
   EXPECT_EQ(done.code, 4) << done.err;
