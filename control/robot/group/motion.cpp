@@ -7,7 +7,9 @@
 namespace indurop::robot {
 
 void Group::run_state(Signals& signals) noexcept {
-  robot_.job.step_outputs(robot_.period, signals, job_motions_);
+  if (!robot_.job.step_outputs(robot_.period, signals, job_motions_)) {
+    stop_for_job();
+  }
   reloading_.step(service_.is_serving(Service::JobReload), queue_.empty() && !power_.enabling(), signals);
   torques_.weigh_pushing();
   robot_.axes.move();
@@ -67,9 +69,6 @@ void Group::run_motion(Signals& signals) noexcept {
     queue_.feed();
     begin_next(false);
   }
-  if (!robot_.job.running()) {
-    job_motions_.end_push();  // the job has failed elsewhere: nothing else ends what it pushes with
-  }
   take_plan();
   if (!job_motions_.step_push()) {
     follow_path();
@@ -82,15 +81,19 @@ void Group::run_motion(Signals& signals) noexcept {
   }
 }
 
+void Group::stop_for_job() noexcept {
+  const Fault fault = robot_.job.fault();
+  finish_service(Fault{fault.code, fault.axis});
+  stop_for(fault);
+}
+
 // Returns false if the job has paused.
 bool Group::run_job(Signals& signals) noexcept {
   JobRunner& job = robot_.job;
   const int before = plans_.ahead().count();
   job.step(robot_.period, signals, job_motions_);
   if (job.state() == JobState::Failed) {
-    const Fault fault = job.fault();
-    finish_service(Fault{fault.code, fault.axis});
-    stop_for(fault);
+    stop_for_job();
   } else if (job.state() == JobState::Paused) {
     resuming_.pause();
     return false;

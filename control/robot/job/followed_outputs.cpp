@@ -13,7 +13,7 @@ FollowedOutputs::Followed* FollowedOutputs::find(std::size_t signal) noexcept {
   return found == all_.end() ? nullptr : found;
 }
 
-StepValues::Flaw FollowedOutputs::run(const Step& step, Signals& signals) noexcept {
+StepValues::Flaw FollowedOutputs::run(const Step& step, int source, Signals& signals) noexcept {
   const auto signal = static_cast<std::size_t>(step.index);
   Followed* place = find(signal);
   if (step.formula < 0) {
@@ -27,17 +27,18 @@ StepValues::Flaw FollowedOutputs::run(const Step& step, Signals& signals) noexce
   if (place == all_.end()) {
     return {"8 outputs follow expressions already, and no more can; end one with FOLLOW and OFF"};
   }
-  *place = {step.formula, signal, true};
+  *place = {step.formula, signal, source, true};
   return {};
 }
 
 StepValues::Flaw FollowedOutputs::step(bool live, const StepValues& values, Signals& signals,
-                                       const MotionPort& port) noexcept {
+                                       const MotionPort& port, int& source) noexcept {
   StepValues::Flaw flaw;
   for (Followed& one : all_) {
     double value = 0;
     if (live && one.formula >= 0 && flaw.ok()) {
       flaw = values.number(one.formula, signals, port, value);
+      source = one.source;
     }
     const bool follows = live && flaw.ok();
     if (one.formula >= 0 && (follows || one.live)) {

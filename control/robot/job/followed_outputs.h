@@ -15,10 +15,12 @@ class FollowedOutputs {
  public:
   static constexpr std::size_t kMost = 8;
 
-  // Executes a FOLLOW, or its end.
-  StepValues::Flaw run(const Step& step, Signals& signals) noexcept;
-  // Called once per period. `live`: the job runs and is not interrupted.
-  StepValues::Flaw step(bool live, const StepValues& values, Signals& signals, const MotionPort& port) noexcept;
+  // Executes a FOLLOW, or its end. `source`: its line.
+  StepValues::Flaw run(const Step& step, int source, Signals& signals) noexcept;
+  // Called once per period. `live`: the job runs and is not interrupted. If an expression has no value, `source` is the
+  // line of its FOLLOW.
+  StepValues::Flaw step(bool live, const StepValues& values, Signals& signals, const MotionPort& port,
+                        int& source) noexcept;
   // The job has ended: all are 0 and no longer follow.
   void reset(Signals& signals) noexcept;
   // The same for outputs that are 0 already.
@@ -30,6 +32,7 @@ class FollowedOutputs {
   struct Followed {
     int formula = -1;  // -1: none
     std::size_t signal = 0;
+    int source = 0;
     bool live = false;  // it may not be 0
   };
   [[nodiscard]] Followed* find(std::size_t signal) noexcept;

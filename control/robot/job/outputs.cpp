@@ -6,9 +6,6 @@ namespace indurop::robot {
 StepValues::Flaw JobOutputs::run(const Step& step, std::uint32_t ticket, const StepValues& values, Signals& signals,
                                  const MotionPort& port, bool& done) noexcept {
   done = true;
-  if (step.op == Op::Follow) {
-    return followed.run(step, signals);
-  }
   if (step.op == Op::Set) {
     return set(step, values, signals, port, done);
   }

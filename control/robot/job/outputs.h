@@ -17,8 +17,8 @@ struct JobOutputs {
   Pulses pulses;
   FollowedOutputs followed;
 
-  // Executes steps of these kinds: Set, SetOnPath, Follow. `ticket`: the last motion that was commanded. `done`:
-  // whether it has been done; else it has to be tried again.
+  // Executes steps of these kinds: Set, SetOnPath. `ticket`: the last motion that was commanded. `done`: whether it has
+  // been done; else it has to be tried again.
   StepValues::Flaw run(const Step& step, std::uint32_t ticket, const StepValues& values, Signals& signals,
                        const MotionPort& port, bool& done) noexcept;
 

@@ -96,12 +96,15 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
 }
 
 // While an interrupt is served, outputs do not follow its motions.
-void JobRunner::step_outputs(double seconds, Signals& signals, const MotionPort& port) noexcept {
+bool JobRunner::step_outputs(double seconds, Signals& signals, const MotionPort& port) noexcept {
   outputs_.pulses.step(seconds, signals);
   const bool live = running() && interrupts_.is(Interrupts::Phase::None);
-  if (const auto flaw = outputs_.followed.step(live, values_, signals, port); !flaw.ok()) {
-    fail({ErrorCode::Line}, flaw.why, 0);
+  int source = 0;
+  const auto flaw = outputs_.followed.step(live, values_, signals, port, source);
+  if (!flaw.ok()) {
+    fail({ErrorCode::Line}, flaw.why, source);
   }
+  return flaw.ok();
 }
 
 JobRunner::Next JobRunner::leave(Signals& signals, MotionPort& port) noexcept {
@@ -169,8 +172,10 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
       break;
     case Op::Set:
     case Op::SetOnPath:
-    case Op::Follow:
       next = output(step, signals, port);
+      break;
+    case Op::Follow:
+      next = done(outputs_.followed.run(step, MotionLine{jobs_.job(), step.line}.source(), signals));
       break;
     case Op::Tool:
     case Op::Load:

@@ -65,7 +65,8 @@ class JobRunner {
   // cannot be answered; then it is asked again.
   [[nodiscard]] OpenQuestion* open_question() noexcept;
   // Called once per period, before step(), whether a job runs or not: outputs that are timed or follow the motion.
-  void step_outputs(double seconds, Signals& signals, const MotionPort& port) noexcept;
+  // Returns false if the job has failed because one of them has no value.
+  [[nodiscard]] bool step_outputs(double seconds, Signals& signals, const MotionPort& port) noexcept;
   // Timed outputs, which end whether a job runs or not.
   [[nodiscard]] const Pulses& pulses() const noexcept { return outputs_.pulses; }
 

@@ -67,6 +67,7 @@ TEST_F(Followed_outputs, End_by_a_set_and_a_failed_job) {
   ASSERT_TRUE(follow([&] { return ended(); }));
   EXPECT_THAT(message(), HasSubstr("divides by 0"));
   EXPECT_EQ(*values["OTHER"], 0);
+  EXPECT_EQ(cell->out.error, ErrorCode::Line);
 }
 
 TEST(Followed_output_lines, Wrong_ones_are_named) {

@@ -154,7 +154,7 @@ TEST_F(Job_push, An_error_elsewhere_in_the_job_ends_it) {
   *values["I4"] = 1;
   ASSERT_TRUE(sut->until([&] { return ended(); }));
   EXPECT_EQ(sut->cell.out.error, ErrorCode::Line);
-  EXPECT_THAT(message(), HasSubstr("main.job:1: "));
+  EXPECT_THAT(message(), HasSubstr("main.job:1: this has no value: it divides by 0"));
   ASSERT_TRUE(sut->until([&] { return !pushes(); }));
   sut->run(0.5);
   EXPECT_EQ(sut->broken, "");
