@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -46,5 +47,28 @@ struct RosReply {
 };
 
 enum class RosOutcome { Rejected, Succeeded, Aborted, Cancelled };
+
+// What clients want. Goals have numbers, from 1.
+struct RosEvents {
+  std::function<void(int goal, const RosGoal& asked)> goal;
+  std::function<void(int goal)> cancel;
+  std::function<void(const RosGoal& asked)> set_points;  // of the controller's topic
+  std::function<RosReply(RosService service)> service;
+};
+
+// The clients of an arm, as a program of ROS reaches them.
+class RosClients {
+ public:
+  RosClients() = default;
+  RosClients(const RosClients&) = delete;
+  RosClients& operator=(const RosClients&) = delete;
+  virtual ~RosClients() = default;
+
+  virtual void publish_joints(const RosJoints& joints) = 0;
+  virtual void accept(int goal) = 0;
+  virtual void feedback(int goal, const RosFeedback& feedback) = 0;
+  // The end of a goal, accepted or not.
+  virtual void finish(int goal, RosOutcome outcome, int code, const std::string& text) = 0;
+};
 
 }  // namespace indurop::ros

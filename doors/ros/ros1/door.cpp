@@ -2,11 +2,9 @@
 #include "doors/ros/ros1/door.h"
 
 #include <algorithm>
-#include <thread>
 #include <utility>
 
 #include "core/base/name_patterns.h"
-#include "core/rt/clock.h"
 #include "core/schema/ros_name.h"
 
 namespace indurop::ros {
@@ -16,22 +14,16 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kTurn{5};
 constexpr milliseconds kWait{300};
-constexpr milliseconds kFeedback{50};
 constexpr std::chrono::seconds kMasterCheck{2};
-constexpr std::chrono::seconds kServiceLimit{5};
 constexpr const char* kRosTopicRoot = "rt/";
-
-Motions::Time monotonic() {
-  return rt::MonoClock::now().time_since_epoch();
-}
 
 }  // namespace
 
-Ros1Door::Ros1Door(Ros1Options options, std::vector<Joint> joints, std::string urdf_text)
+Ros1Door::Ros1Door(Ros1Options options, ArmFile arm)
     : options_(std::move(options)),
-      joints_(std::move(joints)),
-      urdf_text_(std::move(urdf_text)),
-      log_("indurop-ros1", options_.node.empty() ? "local" : options_.node, options_.quiet),
+      choice_{options_.arm.robot, options_.arm.move, std::move(arm.joints)},
+      urdf_(std::move(arm.text)),
+      log_("indurop-ros1", options_.arm.node.empty() ? "local" : options_.arm.node, options_.arm.quiet),
       ros_("indurop", options_.arguments) {}
 
 // Returns false after a signal. What is waited for is said once.
@@ -63,29 +55,8 @@ void Ros1Door::add_topics(Session& session) {
   }
 }
 
-Result<void, base::Problem> Ros1Door::find_arm(Session& session) {
-  auto arm = Arm::find(session.node, options_.robot);
-  if (!arm) {
-    return std::move(arm).error();
-  }
-  session.arm = std::move(*arm);
-  if (!options_.move) {
-    return {};
-  }
-  auto commands = Commands::find(session.node, options_.robot);
-  if (!commands) {
-    return std::move(commands).error();
-  }
-  if (commands->tables() < joints_.size()) {
-    return base::Problem{"MC_PROFILE has fewer tables than the arm has axes; use the plc_robot.glb of this release"};
-  }
-  session.commands = std::move(*commands);
-  session.motions.emplace(*session.arm, *session.commands, joints_, motion_events());
-  return {};
-}
-
 Result<void, base::Problem> Ros1Door::begin() {
-  auto node = Node::open(options_.node, options_.move);
+  auto node = Node::open(options_.arm.node, options_.arm.move);
   if (!node) {
     return std::move(node).error();
   }
@@ -93,114 +64,21 @@ Result<void, base::Problem> Ros1Door::begin() {
     return base::Problem{"the node has ended"};
   }
   auto session = std::make_unique<Session>(std::move(*node));
-  if (!joints_.empty()) {
-    if (auto found = find_arm(*session); !found) {
-      return found;
+  if (!choice_.joints.empty()) {
+    auto arm = ServedArm::find(session->node, choice_, ros_, log_);
+    if (!arm) {
+      return std::move(arm).error();
     }
+    arm_ = std::move(*arm);
   }
   ros_.remove_topics();
   add_topics(*session);
   session_ = std::move(session);
   log_.info("node {}: {} variables{}", session_->node.name(), session_->topics.size(),
-            joints_.empty() ? ""
-            : options_.move ? ", and the arm, which clients may move"
-                            : ", and the arm");
+            arm_ == nullptr     ? ""
+            : options_.arm.move ? ", and the arm, which clients may move"
+                                : ", and the arm");
   return {};
-}
-
-MotionEvents Ros1Door::motion_events() {
-  return {[this](int goal) { ros_.accept(goal); },
-          [this](int goal, RosOutcome outcome, int code, const std::string& text) {
-            if (code != 0) {
-              log_.warning("goal {}: {}", goal, text);
-            }
-            ros_.finish(goal, outcome, code, text);
-          },
-          [this](const std::string& text) { log_.warning("{}", text); }};
-}
-
-RosEvents Ros1Door::ros_events() {
-  RosEvents events;
-  events.goal = [this](int goal, const RosGoal& asked) {
-    if (session_ && session_->motions) {
-      session_->motions->want(goal, asked, monotonic());
-    } else {
-      ros_.finish(goal, RosOutcome::Rejected, static_cast<int>(GoalCode::InvalidGoal), "the node does not run");
-    }
-  };
-  events.cancel = [this](int goal) {
-    if (session_ && session_->motions) {
-      session_->motions->cancel(goal);
-    }
-  };
-  events.set_points = [this](const RosGoal& asked) {
-    if (session_ && session_->motions) {
-      session_->motions->set_points(asked, monotonic());
-    }
-  };
-  events.service = [this](RosService service) { return run_service(service); };
-  return events;
-}
-
-// Serves the arm while it waits.
-RosReply Ros1Door::run_service(RosService service) {
-  if (!session_ || !session_->motions) {
-    return {false, "the node does not run"};
-  }
-  const auto code = service == RosService::Enable    ? robot::Service::GroupEnable
-                    : service == RosService::Disable ? robot::Service::GroupDisable
-                                                     : robot::Service::GroupReset;
-  if (std::string wrong = session_->motions->request(code); !wrong.empty()) {
-    return {false, std::move(wrong)};
-  }
-  for (const Time end = monotonic() + kServiceLimit; monotonic() < end;) {
-    serve_arm(monotonic(), false);
-    if (auto ended = session_->motions->service_end()) {
-      return {ended->empty(), ended->empty() ? std::string("done") : std::move(*ended)};
-    }
-    std::this_thread::sleep_for(kTurn);
-  }
-  return {false, "it did not end within 5 s"};
-}
-
-void Ros1Door::publish_joints(const Arm& arm) {
-  RosJoints joints;
-  bool has_torque = false;
-  for (std::size_t i = 0; i < std::min(arm.size(), joints_.size()); ++i) {
-    const AxisNow& axis = arm.axis(i);
-    joints.names.push_back(joints_[i].name);
-    joints.positions.push_back(axis.position * joints_[i].unit);
-    joints.velocities.push_back(axis.velocity * joints_[i].unit);
-    joints.efforts.push_back(axis.torque);
-    has_torque = has_torque || axis.torque != 0;
-  }
-  if (!has_torque) {
-    joints.efforts.clear();
-  }
-  ros_.publish_joints(joints);
-}
-
-void Ros1Door::serve_arm(Time now, bool is_due) {
-  Arm& arm = *session_->arm;
-  if (!arm.read()) {
-    return;
-  }
-  if (session_->motions) {
-    session_->motions->step(now);
-    if (const int goal = session_->motions->active(); goal != 0 && now >= next_feedback_) {
-      next_feedback_ = now + kFeedback;
-      RosFeedback feedback;
-      for (std::size_t i = 0; i < std::min(arm.size(), joints_.size()); ++i) {
-        feedback.names.push_back(joints_[i].name);
-        feedback.desired.push_back(arm.axis(i).command * joints_[i].unit);
-        feedback.actual.push_back(arm.axis(i).position * joints_[i].unit);
-      }
-      ros_.feedback(goal, feedback);
-    }
-  }
-  if (is_due) {
-    publish_joints(arm);
-  }
 }
 
 void Ros1Door::publish_values() {
@@ -218,6 +96,14 @@ void Ros1Door::publish_values() {
   }
 }
 
+void Ros1Door::end(const std::string& why) {
+  if (arm_) {
+    arm_->abandon(why);
+  }
+  arm_.reset();
+  session_.reset();
+}
+
 Result<void, base::Problem> Ros1Door::run(base::StopSignal& stop) {
   while (!ros_.has_master()) {
     if (!wait_for(stop, "no master at " + ros_.master() + "; start rosmaster, or set ROS_MASTER_URI")) {
@@ -225,10 +111,10 @@ Result<void, base::Problem> Ros1Door::run(base::StopSignal& stop) {
     }
   }
   ros_.start();
-  if (!joints_.empty()) {
-    ros_.add_arm(options_.controller, urdf_text_, options_.move, ros_events());
+  if (!choice_.joints.empty()) {
+    ros_.add_arm(options_.arm.controller, urdf_, options_.arm.move, events_of(arm_, ros_, log_));
   }
-  const Time period(static_cast<std::int64_t>(1e9 / options_.rate_hz));
+  const Time period(static_cast<std::int64_t>(1e9 / options_.arm.rate_hz));
   while (stop.wait(kTurn) == 0) {
     if (!session_) {
       ros_.spin();  // what was wanted while the node is away is rejected now, and not executed when it is back
@@ -245,22 +131,17 @@ Result<void, base::Problem> Ros1Door::run(base::StopSignal& stop) {
     ros_.spin();
     const bool is_due = now >= next_;
     next_ = is_due ? std::max(next_ + period, now) : next_;
-    if (session_->arm) {
-      serve_arm(now, is_due);
+    if (arm_) {
+      arm_->serve(now, is_due);
     }
     if (is_due) {
       publish_values();
     }
     if (!session_->node.runs()) {
-      if (session_->motions) {
-        session_->motions->abandon("the node has ended, or has other variables");
-      }
-      session_.reset();
+      end("the node has ended, or has other variables");
     }
   }
-  if (session_ && session_->motions) {
-    session_->motions->abandon("indurop-ros1 has ended");
-  }
+  end("indurop-ros1 has ended");
   return {};
 }
 

@@ -8,15 +8,14 @@
 
 #include <chrono>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/log.h"
 #include "core/base/problem.h"
 #include "core/base/stop_signal.h"
-#include "doors/ros/arm/motions.h"
-#include "doors/ros/model/joints.h"
+#include "doors/ros/arm/arm_options.h"
+#include "doors/ros/arm/served_arm.h"
 #include "doors/ros/model/node.h"
 #include "doors/ros/ros1/message.h"
 #include "doors/ros/ros1/options.h"
@@ -26,8 +25,7 @@ namespace indurop::ros {
 
 class Ros1Door {
  public:
-  // `joints` of the file `urdf_text`, none without an arm.
-  Ros1Door(Ros1Options options, std::vector<Joint> joints, std::string urdf_text);
+  Ros1Door(Ros1Options options, ArmFile arm);
 
   // Runs until a signal. Errors: the master has ended, the node has no such robot.
   Result<void, base::Problem> run(base::StopSignal& stop);
@@ -44,31 +42,23 @@ class Ros1Door {
     explicit Session(Node opened) : node(std::move(opened)) {}
     Node node;
     std::vector<Topic> topics;
-    std::optional<Arm> arm;
-    std::optional<Commands> commands;
-    std::optional<Motions> motions;
   };
 
   Result<void, base::Problem> begin();
-  Result<void, base::Problem> find_arm(Session& session);
   void add_topics(Session& session);
   bool wait_for(base::StopSignal& stop, const std::string& what);
-  void serve_arm(Time now, bool is_due);
-  RosReply run_service(RosService service);
   void publish_values();
-  void publish_joints(const Arm& arm);
-  [[nodiscard]] RosEvents ros_events();
-  [[nodiscard]] MotionEvents motion_events();
+  void end(const std::string& why);
 
   Ros1Options options_;
-  std::vector<Joint> joints_;
-  std::string urdf_text_;
+  ServedArm::Choice choice_;
+  std::string urdf_;
   base::Log log_;
   RosSide ros_;
   std::unique_ptr<Session> session_;
+  std::unique_ptr<ServedArm> arm_;  // of the session; null: none
   std::string waited_for_;
-  Time next_{0};  // when values are published
-  Time next_feedback_{0};
+  Time next_{0};        // when values are published
   Time next_check_{0};  // of the master
 };
 

@@ -7,9 +7,8 @@
 #include <utility>
 
 #include "core/base/exit_code.h"
-#include "core/base/read_file.h"
 #include "core/base/stop_signal.h"
-#include "core/base/text.h"
+#include "doors/ros/arm/arm_options.h"
 #include "doors/ros/ros1/door.h"
 #include "doors/ros/ros1/options.h"
 
@@ -24,34 +23,17 @@ constexpr const char* kDetails =
 The master is that of ROS_MASTER_URI.
 )";
 
-int fail_with(const std::string& text, int code) {
-  fmt::print(stderr, "indurop-ros1: error: {}\n", text);
-  return code;
-}
-
 int run(const Ros1Options& options) {
   base::StopSignal stop;
-  std::string urdf;
-  std::vector<Joint> joints;
-  if (options.move && options.urdf.empty()) {
-    return fail_with("--move needs --urdf FILE, which has the joints of the arm", kUsage);
+  auto arm = read_arm(options.arm, "indurop-ros1");
+  if (!arm) {
+    fmt::print(stderr, "{}", arm.error());
+    return kUsage;
   }
-  if (!options.urdf.empty()) {
-    const auto text = base::read_file(options.urdf);
-    if (!text) {
-      return fail_with(base::cannot_read(options.urdf, text.error()), kUsage);
-    }
-    urdf = *text;
-    auto found = read_joints(options.urdf, urdf);
-    if (!found) {
-      fmt::print(stderr, "{}", base::to_text(found.error()));
-      return kUsage;
-    }
-    joints = std::move(*found);
-  }
-  Ros1Door door(options, std::move(joints), std::move(urdf));
+  Ros1Door door(options, std::move(*arm));
   if (const auto done = door.run(stop); !done) {
-    return fail_with(done.error().text, kFailed);
+    fmt::print(stderr, "indurop-ros1: error: {}\n", done.error().text);
+    return kFailed;
   }
   constexpr int kSignalBase = 128;
   return kSignalBase + stop.received();

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,21 +14,11 @@
 
 namespace indurop::ros {
 
-// What clients want. Goals have numbers, from 1.
-struct RosEvents {
-  std::function<void(int goal, const RosGoal& asked)> goal;
-  std::function<void(int goal)> cancel;
-  std::function<void(const RosGoal& asked)> set_points;  // topic `command` of the controller
-  std::function<RosReply(RosService service)> service;
-};
-
-class RosSide {
+class RosSide : public RosClients {
  public:
   // `arguments`: those that roscpp takes, such as name:=other. Nothing is sent yet.
   RosSide(const std::string& name, const std::vector<std::string>& arguments);
-  ~RosSide();
-  RosSide(const RosSide&) = delete;
-  RosSide& operator=(const RosSide&) = delete;
+  ~RosSide() override;
 
   // There is a master, and it is the one with which start() has registered.
   [[nodiscard]] bool has_master() const;
@@ -47,11 +36,10 @@ class RosSide {
   // The arm: joint_states and, if clients may move it, the action follow_joint_trajectory and the topic command of the
   // controller. `urdf` becomes the parameter robot_description if there is none.
   void add_arm(const std::string& controller, const std::string& urdf, bool may_move, RosEvents events);
-  void publish_joints(const RosJoints& joints);
-  void accept(int goal);
-  void feedback(int goal, const RosFeedback& feedback);
-  // The end of a goal, accepted or not.
-  void finish(int goal, RosOutcome outcome, int code, const std::string& text);
+  void publish_joints(const RosJoints& joints) override;
+  void accept(int goal) override;
+  void feedback(int goal, const RosFeedback& feedback) override;
+  void finish(int goal, RosOutcome outcome, int code, const std::string& text) override;
 
  private:
   struct Parts;
