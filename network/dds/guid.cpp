@@ -27,16 +27,20 @@ std::optional<Guid> participant_of(Handle reader, InstanceHandle publication) {
   return data == nullptr ? std::nullopt : std::optional(guid_of(data->participant_key));
 }
 
-bool is_marked(Handle reader, InstanceHandle publication, std::string_view mark) {
+std::string mark_of(Handle reader, InstanceHandle publication) {
   const EndpointData data(dds_get_matched_publication_data(reader, publication));
   void* info_of_endpoint = nullptr;
   std::size_t size = 0;
   if (data == nullptr || !dds_qget_userdata(data->qos, &info_of_endpoint, &size)) {
-    return false;
+    return {};
   }
-  const bool same = std::string_view(static_cast<const char*>(info_of_endpoint), size) == mark;
+  std::string mark(static_cast<const char*>(info_of_endpoint), size);
   dds_free(info_of_endpoint);
-  return same;
+  return mark;
+}
+
+bool is_marked(Handle reader, InstanceHandle publication, std::string_view mark) {
+  return mark_of(reader, publication) == mark;
 }
 
 bool is_numbered_by(const Guid& participant, std::string_view subject) noexcept {

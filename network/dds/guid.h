@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "network/dds/entity.h"
@@ -28,6 +29,9 @@ Guid guid_of(Handle entity) noexcept;
 
 // Returns the participant of a publication that `reader` is matched with. Empty: it has already gone.
 std::optional<Guid> participant_of(Handle reader, InstanceHandle publication);
+// Returns the QosChoice::mark of that publication's writer, or what another program has put there (USER_DATA). Empty:
+// none, or it has already gone.
+std::string mark_of(Handle reader, InstanceHandle publication);
 // Returns true if that publication's writer was made with QosChoice::mark `mark`; false also if it has already gone.
 bool is_marked(Handle reader, InstanceHandle publication, std::string_view mark);
 // Returns true if the GUID of a participant begins with `subject`, the SHA-256 of its certificate's subject as

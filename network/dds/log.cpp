@@ -15,6 +15,7 @@ struct Log {
   std::string last;
   std::string refusal;
   std::atomic<std::uint64_t> count{0};
+  std::atomic<std::uint64_t> unreadable{0};
 };
 Log& log() {
   static Log instance;
@@ -28,6 +29,9 @@ void sink(void* /*context*/, const dds_log_data_t* data) {
   text = text.substr(0, text.find_first_of("\r\n"));
   Log& to = log();
   to.count.fetch_add(1, std::memory_order_relaxed);
+  if (text.starts_with("data(application") && text.find("deserialization") != std::string_view::npos) {
+    to.unreadable.fetch_add(1, std::memory_order_relaxed);
+  }
   const std::lock_guard<std::mutex> guard(to.mutex);
   to.last.assign(text.substr(0, kLongest));
   if (text.find("handshake") != std::string_view::npos && text.find("failed") != std::string_view::npos) {
@@ -53,6 +57,10 @@ std::string last_refusal() {
 
 std::uint64_t dds_message_count() noexcept {
   return log().count.load(std::memory_order_relaxed);
+}
+
+std::uint64_t unreadable_samples() noexcept {
+  return log().unreadable.load(std::memory_order_relaxed);
 }
 
 }  // namespace indurop::dds

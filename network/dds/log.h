@@ -17,5 +17,7 @@ std::string last_dds_message();
 // Returns the last message that states why two participants with keys reject each other; empty: none.
 std::string last_refusal();
 std::uint64_t dds_message_count() noexcept;
+// Returns the number of samples that were dropped because their bytes are no value of their type.
+std::uint64_t unreadable_samples() noexcept;
 
 }  // namespace indurop::dds

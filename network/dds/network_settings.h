@@ -23,6 +23,7 @@ struct Security {
 
 struct NetworkSettings {
   std::string board;           // name shown to DDS tools and to other releases; may be empty
+  std::string user_data = {};  // of the participant, for programs that look for it; may be empty
   int domain = 0;              // DDS domain, 0..230
   std::string interface_name;  // empty: the interface that has `address`, else the only one
   std::string address;         // own IP address or host name, may be empty

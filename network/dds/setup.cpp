@@ -173,6 +173,9 @@ Result<Joined, base::Problem> join_network(const NetworkSettings& settings) {
   if (!settings.board.empty()) {
     dds_qset_entity_name(qos.get(), settings.board.c_str());  // for DDS tools and other releases
   }
+  if (!settings.user_data.empty()) {
+    dds_qset_userdata(qos.get(), settings.user_data.data(), settings.user_data.size());
+  }
   Entity participant(dds_create_participant(id, qos.get(), nullptr));
   if (!participant.ok()) {
     const std::string reason = last_dds_message();

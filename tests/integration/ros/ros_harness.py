@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The robot task with simulated drives, a master of ROS 1, and indurop-ros1 between them, which tests drive."""
+"""The robot task with simulated drives, a master of ROS 1, and a door to ROS, which tests drive."""
 
 import os
 import pathlib
@@ -113,10 +113,10 @@ class Setting:
         self.set("PLC_ROBOT::I15", 1)
         wait_for(lambda: self.number("PLC_ROBOT::EMERGENCY_STOP.bActive") == 0, "no emergency stop")
 
-    def log_of_door(self):
-        return (self.folder / "door.log").read_text()
+    def log_of_door(self, name="door"):
+        return (self.folder / f"{name}.log").read_text()
 
-    def start_door(self, *options):
-        door = self.start("door", "indurop-ros1", "--node", self.node, *options)
-        wait_for(lambda: f"node {self.node}: " in self.log_of_door(), "the topics")
+    def start_door(self, *options, program="indurop-ros1", name="door"):
+        door = self.start(name, program, "--node", self.node, *options)
+        wait_for(lambda: f"node {self.node}: " in self.log_of_door(name), "the topics")
         return door
