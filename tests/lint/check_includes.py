@@ -26,6 +26,7 @@ THIRD_PARTY = {
     "urdf": ("urdf_parser/", "urdf_model/", "console_bridge/"),
     "kdl": ("kdl/",),
     "fcl": ("fcl/",),
+    "ompl": ("ompl/",),
     "assimp": ("assimp/",),
     "gtest": ("gtest/", "gmock/"),
     "mosquitto": ("mosquitto.h",),

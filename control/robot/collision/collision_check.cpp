@@ -35,11 +35,11 @@ CollisionCheck::CollisionCheck(const Clearance& clearance, bool exact)
 double CollisionCheck::measure(std::size_t pair, const Clearance::Places& places) noexcept {
   const Clearance::Pair& one = clearance_.pairs()[pair];
   if (nearest_ == nullptr) {
-    return clearance_.least(one, places);
+    return least(pair, places);
   }
   const auto a = static_cast<std::size_t>(one.a);
   const auto b = static_cast<std::size_t>(one.b);
-  return nearest_->distance(one.a, one.b, places[a], places[b]) - clearance_.margin();
+  return nearest_->distance(one.a, one.b, places[a], places[b]) - clearance_.margin() - more_;
 }
 
 void CollisionCheck::swap(CollisionCheck& other) noexcept {
@@ -59,8 +59,9 @@ void CollisionCheck::take(const CollisionCheck& other) noexcept {
   at_ = other.at_;
 }
 
-void CollisionCheck::begin(const Joints& from, int tool) noexcept {
+void CollisionCheck::begin(const Joints& from, int tool, double more) noexcept {
   at_ = from;
+  more_ = more;
   pair_ = -1;
   here_placed_ = true;
   clearance_.place(from, here_);
@@ -71,7 +72,7 @@ void CollisionCheck::begin(const Joints& from, int tool) noexcept {
     if (!room.counts) {
       continue;
     }
-    room.left = clearance_.least(pair, here_);
+    room.left = least(i, here_);
     if (room.left <= kFinest && nearest_ != nullptr) {
       room.left = measure(i, here_);
     }
@@ -114,7 +115,7 @@ CollisionCheck::Step CollisionCheck::look(std::size_t pair, double most, bool& p
     return come_apart(pair, most);
   }
   Room& next = next_[pair];
-  next.left = clearance_.least(clearance_.pairs()[pair], there_);
+  next.left = least(pair, there_);
   if (next.left > 0 && most < rooms_[pair].left + next.left) {
     return Step::Clear;
   }

@@ -24,8 +24,9 @@ class CollisionCheck {
     Touches,  // the bodies of pair() come too near to each other
     Lost      // the path cannot be continued
   };
-  // Sets the start of a path. Real-time safe like all functions below, unless it is exact.
-  void begin(const Joints& from, int tool) noexcept;
+  // Sets the start of a path, whose bodies must keep `more` m in addition to the margin. Real-time safe like all
+  // functions below, unless it is exact.
+  void begin(const Joints& from, int tool, double more = 0) noexcept;
   // Exchanges the bodies with those of another one. clearance() has to follow.
   void swap(CollisionCheck& other) noexcept;
   // Continues from the present place of `other`, which checks the same bodies.
@@ -56,6 +57,10 @@ class CollisionCheck {
 
   // Returns the distance from touching at one of the two places, in m.
   [[nodiscard]] double measure(std::size_t pair, const Clearance::Places& places) noexcept;
+  // A lower bound of it, without FCL.
+  [[nodiscard]] double least(std::size_t pair, const Clearance::Places& places) const noexcept {
+    return clearance_.least(clearance_.pairs()[pair], places) - more_;
+  }
   Step look(std::size_t pair, double most, bool& placed, const Joints& to) noexcept;
   Step come_apart(std::size_t pair, double most) noexcept;
 
@@ -67,6 +72,7 @@ class CollisionCheck {
   bool here_placed_ = false;
   int pair_ = -1;
   double apart_ = 0;  // m, the longest step while bodies touch
+  double more_ = 0;   // m, in addition to the margin
 };
 
 // Returns how far axes travel at most on a path of which three places are known, the second in its middle; with twice
@@ -88,10 +94,10 @@ class ClearWalk {
   // none.
   template <class At>
   CollisionCheck::Step step(CollisionCheck& way, const At& at) noexcept {
-    if (width_ < 1e-9 * length_) {
+    if (is_lost()) {
       return CollisionCheck::Step::Lost;
     }
-    const double to = place_ + 1.001 * width_ >= length_ ? length_ : place_ + width_;
+    const double to = next_place();
     Joints middle = way.at();
     if (!at((place_ + to) / 2, way.at(), middle)) {
       return CollisionCheck::Step::Lost;
@@ -100,14 +106,17 @@ class ClearWalk {
     if (!at(to, middle, end)) {
       return CollisionCheck::Step::Lost;
     }
-    const CollisionCheck::Step step = way.next(end, moved_by(way.at(), middle, end));
-    if (step == CollisionCheck::Step::Clear) {
-      place_ = to;
-      width_ = 2 * width_ < widest_ ? 2 * width_ : widest_;
-    } else {
-      width_ /= 2;
+    return note(way.next(end, moved_by(way.at(), middle, end)), to);
+  }
+  // The same on a path whose joints are known at each place, `at(place)`, and so is how far they travel between two,
+  // `travel(from, to)`.
+  template <class At, class Travel>
+  CollisionCheck::Step step_along(CollisionCheck& way, const At& at, const Travel& travel) noexcept {
+    if (is_lost()) {
+      return CollisionCheck::Step::Lost;
     }
-    return step;
+    const double to = next_place();
+    return note(way.next(at(to), travel(place_, to)), to);
   }
 
   // Takes the whole path, if `steps` steps are enough for it. Otherwise pair() returns what is in the way.
@@ -123,6 +132,20 @@ class ClearWalk {
   }
 
  private:
+  [[nodiscard]] bool is_lost() const noexcept { return width_ < 1e-9 * length_; }
+  [[nodiscard]] double next_place() const noexcept {
+    return place_ + 1.001 * width_ >= length_ ? length_ : place_ + width_;
+  }
+  CollisionCheck::Step note(CollisionCheck::Step step, double to) noexcept {
+    if (step == CollisionCheck::Step::Clear) {
+      place_ = to;
+      width_ = 2 * width_ < widest_ ? 2 * width_ : widest_;
+    } else {
+      width_ /= 2;
+    }
+    return step;
+  }
+
   double length_ = 0, place_ = 0, width_ = 0, widest_ = 0;
 };
 

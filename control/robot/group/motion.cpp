@@ -109,7 +109,7 @@ void Group::begin_next(bool more) noexcept {
   }
   const Joints from = correction_.shifts() ? robot_.follower.end() : conveyor_.planned_end();
   const ReadAhead::Next next = plans_.begin_next(from, more);
-  if (next.chain != nullptr && next.lines == nullptr) {
+  if ((next.chain != nullptr && next.lines == nullptr) || next.joint_path != nullptr) {
     resuming_.forget_steps();
   } else if (next.chain == nullptr && next.command != nullptr) {
     resuming_.note(*next.command, from);

@@ -36,6 +36,7 @@ ReadAhead::Next Plans::begin_next(const Joints& from, bool more) noexcept {
     if (request.leads) {
       request.then = *next.then;
     }
+    request.joint_path = next.joint_path;
     ask(request);
   }
   return next;

@@ -48,8 +48,8 @@ StepValues::Flaw Correcting::check(const Step& motion) const noexcept {
   if (!on()) {
     return {};
   }
-  if (motion.move == Move::Joint) {
-    return {"CORRECT shifts lines, circles and splines; end it with CORRECT OFF before a MOVJ"};
+  if (motion.move == Move::Joint || motion.move == Move::Free) {
+    return {"CORRECT shifts lines, circles and splines; end it with CORRECT OFF before another motion"};
   }
   if (motion.index < 0) {
     return {"HERE, FOUND and BACK include the correction; end it with CORRECT OFF before you move there"};

@@ -41,6 +41,14 @@ void MotionReader::move(Move kind) {
   extras(first);
 }
 
+void MotionReader::free() {
+  if (!line_.accept("FREE") || !line_.accept("TO")) {
+    line_.error(line_.peek(), "a motion around obstacles is MOVE FREE TO P; others are MOVJ, MOVL, MOVC and MOVS");
+    return;
+  }
+  move(Move::Free);
+}
+
 void MotionReader::search() {
   const JobToken start = line_.before();
   move(Move::Line);
@@ -56,6 +64,7 @@ void MotionReader::search() {
 // Parses what may follow the points of a motion, in any order: "UNTIL I4 SPEED 20 mm/s ACC 50%". It belongs to all
 // steps of the motion.
 void MotionReader::extras(std::size_t first_step) {
+  const bool free = draft_.last().move == Move::Free;
   MotionExtras extras;
   Step setting;
   for (bool more = true; more && !line_.failed();) {
@@ -71,6 +80,12 @@ void MotionReader::extras(std::size_t first_step) {
     } else if (line_.accept("UNTIL")) {
       until(extras);
       continue;
+    } else if (free && line_.accept("SEED")) {
+      seed(extras);
+      continue;
+    } else if (free && line_.accept("WITHIN")) {
+      within(extras);
+      continue;
     } else {
       break;
     }
@@ -81,7 +96,7 @@ void MotionReader::extras(std::size_t first_step) {
   if (!line_.failed() && zone && extras.until >= 0) {
     line_.error(line_.first(), "a motion with UNTIL ends at rest; leave its ZONE out");
   }
-  if (line_.failed() || (extras.settings.empty() && extras.until < 0)) {
+  if (line_.failed() || (extras.settings.empty() && extras.until < 0 && !free)) {
     return;
   }
   draft_.book().extras.push_back(std::move(extras));
@@ -96,6 +111,25 @@ void MotionReader::until(MotionExtras& extras) {
     return;
   }
   extras.until = expressions_.read("the condition that ends the motion");
+}
+
+void MotionReader::seed(MotionExtras& extras) {
+  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
+  const JobToken number = line_.peek();
+  double seed = 0;
+  if (line_.numbers(1, &seed, "the seed, SEED 7") && !(seed >= 0 && seed <= kMost && seed == std::floor(seed))) {
+    line_.error(number, "a seed is a whole number from 0 to 4294967295");
+    return;
+  }
+  extras.seed = static_cast<std::uint32_t>(seed);
+}
+
+void MotionReader::within(MotionExtras& extras) {
+  constexpr double kMost = 600;  // s
+  const JobToken number = line_.peek();
+  if (line_.duration(extras.within) && !(extras.within > 0 && extras.within <= kMost)) {
+    line_.error(number, "a search for a way may take up to 600 s, and more than 0");
+  }
 }
 
 // Adds a step for each point of the spline.

@@ -16,6 +16,8 @@ class MotionReader {
   // A line that has to find something on its way.
   void search();
   void spline();
+  // A motion around obstacles.
+  void free();
   void speed();
   void zone();
   void acceleration();
@@ -31,6 +33,8 @@ class MotionReader {
   void offset();
   void extras(std::size_t first_step);
   void until(MotionExtras& extras);
+  void seed(MotionExtras& extras);
+  void within(MotionExtras& extras);
 
   JobLine& line_;
   JobDraft& draft_;

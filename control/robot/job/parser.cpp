@@ -10,7 +10,9 @@ namespace {
 
 constexpr std::size_t kMostSteps = 20000;
 constexpr const char* kStatements =
-    "POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, VAR, SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SEARCH, WEAVE, "
+    "POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, VAR, SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, MOVE FREE TO, "
+    "SEARCH, "
+    "WEAVE, "
     "CORRECT, TRACK, PUSH, FOLLOW, SET, PULSE, WAIT, ASK, CALL, ON, OFF, RETURN, RAISE, MESSAGE, LABEL, GOTO, IF, "
     "ELSEIF, "
     "ELSE, "
@@ -80,6 +82,7 @@ void JobParser::statement() {
       {"MOVL", [](JobParser& p) { p.motions_.move(Move::Line); }},
       {"MOVC", [](JobParser& p) { p.motions_.move(Move::Circle); }},
       {"MOVS", [](JobParser& p) { p.motions_.spline(); }},
+      {"MOVE", [](JobParser& p) { p.motions_.free(); }},
       {"SEARCH", [](JobParser& p) { p.motions_.search(); }},
       {"WEAVE", [](JobParser& p) { p.weaving_.weave(); }},
       {"CORRECT", [](JobParser& p) { p.each_period_.correct(); }},

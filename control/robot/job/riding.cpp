@@ -55,7 +55,8 @@ StepValues::Flaw Riding::prepare(const Step& motion, JobPlaces& places, MotionPo
     return {};
   }
   const bool wanted = is_in_frame(motion.index);
-  if (wanted && (motion.move == Move::Joint || (motion.move == Move::Circle && !is_in_frame(motion.mid)))) {
+  const bool of_joints = motion.move == Move::Joint || motion.move == Move::Free;
+  if (wanted && (of_joints || (motion.move == Move::Circle && !is_in_frame(motion.mid)))) {
     return {"lines, circles and splines follow a frame that moves, with all their points in it"};
   }
   const MotionExtras* const extras = book_.extras_of(motion);

@@ -84,14 +84,19 @@ StepValues::Flaw StepMotions::make(const Step& step, const MotionSettings& setti
     own.apply(with);
   }
   const bool until = extras != nullptr && extras->until >= 0;
+  const bool of_joints = step.move == Move::Joint || step.move == Move::Free;
   command.speed = own.speed;
-  command.tool_speed = step.move == Move::Joint ? 0 : own.tool_speed;
-  command.zone = until ? 0 : own.zone;
+  command.tool_speed = of_joints ? 0 : own.tool_speed;
+  command.zone = until || step.move == Move::Free ? 0 : own.zone;
   command.acceleration = own.acceleration;
   command.straight = step.move == Move::Joint && step.value != 0;
   command.more = step.move == Move::Spline && step.value != 0;
   command.alone = until;
-  if (own.wave >= 0 && step.move != Move::Joint) {
+  if (extras != nullptr) {
+    command.seed = extras->seed;
+    command.within = extras->within;
+  }
+  if (own.wave >= 0 && !of_joints) {
     command.wave = book_.waves[static_cast<std::size_t>(own.wave)];
     command.zone = 0;
     command.alone = true;

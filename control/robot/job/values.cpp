@@ -69,8 +69,8 @@ void ValueReader::set_on_path(Step wanted) {
     wanted.value /= 1000;
     if (!(wanted.value >= 0)) {
       line_.error(number, "a distance is from 0 mm");
-    } else if (motion->move == Move::Joint) {
-      line_.error(number, "the way of a MOVJ has no distance; give a time, BEFORE 0.2s");
+    } else if (motion->move == Move::Joint || motion->move == Move::Free) {
+      line_.error(number, "the way of a MOVJ or MOVE FREE has no distance; give a time, BEFORE 0.2s");
     }
   } else if (line_.duration(wanted.timeout)) {
     wanted.timeout = std::max(wanted.timeout, 1e-6);

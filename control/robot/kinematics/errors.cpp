@@ -76,6 +76,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "a thread of the robot task crashed; start the task again, and report what the module's fault says";
     case ErrorCode::Wave:
       return "the tool points along the way, so there is no side to weave to; turn the tool, or end it with WEAVE OFF";
+    case ErrorCode::NoWay:
+      return "no way around what is in the way was found in time; add a point between, or give it longer, WITHIN 20 s";
   }
   return "unknown error";
 }

@@ -113,6 +113,10 @@ double FollowedPath::smooth_until(double distance) const noexcept {
   if (const Segment& s = segment(); s.wave.on()) {
     return distance + kPart * s.wave.length * (s.timed ? s.stretch : s.length) / s.way;
   }
+  if (const Segment& s = segment(); s.joint_path != nullptr) {
+    const double here = s.timed ? passed_[0] : state_.position;
+    return s.joint_path->smooth_until(here + distance) - here;
+  }
   if (!is_blended()) {
     return HUGE_VAL;
   }

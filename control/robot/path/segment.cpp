@@ -132,6 +132,10 @@ Reach Places::on(const Segment& segment, double place, const Joints& near, Solut
     solution = {segment.joints_at(place), 0};
     return Reach::Ok;
   }
+  if (segment.joint_path != nullptr) {
+    solution = {segment.joint_path->at(segment.timed ? segment.timing.at(place).place : place), 0};
+    return Reach::Ok;
+  }
   const auto found = inverse_->nearest(segment.pose_at(place), inverse_->held_as(segment.from, near));
   if (found.reach == Reach::Ok) {
     solution = found.solution;
@@ -140,6 +144,10 @@ Reach Places::on(const Segment& segment, double place, const Joints& near, Solut
 }
 
 Reach Places::on_path(const Segment& segment, double along, const Joints& near, Joints& q) const noexcept {
+  if (segment.joint_path != nullptr) {
+    q = segment.joint_path->at(along);
+    return Reach::Ok;
+  }
   const auto found = inverse_->nearest(segment.pose_on_path(along), inverse_->held_as(segment.from, near));
   if (found.reach == Reach::Ok) {
     q = found.solution.q;

@@ -11,6 +11,7 @@
 #include "control/robot/kinematics/inverse.h"
 #include "control/robot/kinematics/tip_speed.h"
 #include "control/robot/kinematics/workspace.h"
+#include "control/robot/path/joint_path.h"
 #include "control/robot/path/joint_timing.h"
 #include "control/robot/path/pace.h"
 #include "control/robot/path/profile.h"
@@ -20,8 +21,9 @@
 
 namespace indurop::robot {
 
-// Splines have one command for each of their points.
-enum class Move : std::uint8_t { Joint, Line, Circle, Spline };
+// Splines have one command for each of their points. Free: around obstacles, on a path of the joints that is searched
+// for.
+enum class Move : std::uint8_t { Joint, Line, Circle, Spline, Free };
 
 // The target of a motion: joint angles or a pose of the tool.
 struct Target {
@@ -47,6 +49,8 @@ struct MoveCommand {
   std::uint32_t ticket = 0;  // its number among the motions of a job, from 1
   bool alone = false;        // is not joined with neighbouring lines into one path
   Wave wave{};               // across lines, circles and splines
+  std::uint32_t seed = 0;    // of a search for a way
+  double within = 0;         // s, that this search may take; 0: any time
 };
 
 struct Segment {
@@ -63,6 +67,7 @@ struct Segment {
   Vec3 center = Vec3::Zero(), radius_x = Vec3::Zero(), radius_y = Vec3::Zero();  // of circles
   double angle = 0;                                                              // of circles, from radius_x on
   const ToolPath* chain = nullptr;                                               // many pieces; not owned
+  const JointPath* joint_path = nullptr;                                         // of Move::Free; not owned
   double way = 0;                                                                // m, of lines and circles
   double length = 0;                                                             // s at full speed
   double zone = 0;                                                               // m

@@ -76,7 +76,8 @@ LineLimits Blending::limits(const Segment& first, const Blend& blend, const Segm
 
 Blend Blending::blend(const Segment& first, const Segment& second) noexcept {
   Blend result;
-  if (first.zone <= 0 || first.chain != nullptr || second.chain != nullptr || first.length <= 0 || second.length <= 0) {
+  if (first.zone <= 0 || first.chain != nullptr || second.chain != nullptr || second.joint_path != nullptr ||
+      first.length <= 0 || second.length <= 0) {
     return result;
   }
   result.zone = zone(first, second);

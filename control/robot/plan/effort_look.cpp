@@ -96,8 +96,8 @@ void EffortLook::begin(const Segment& segment) noexcept {
     return;
   }
   // Even a segment with a timing is followed at one speed if the previous motion blends into it; a chain never is,
-  // nor a wave.
-  const bool at_rest = segment.chain != nullptr || segment.wave.on();
+  // nor a wave, nor a free motion.
+  const bool at_rest = segment.chain != nullptr || segment.wave.on() || segment.joint_path != nullptr;
   begin_way(segment, segment.move == Move::Joint         ? Way::JointsStraight
                      : at_rest && segment.timing.known() ? Way::Timing
                                                          : Way::Speed);

@@ -26,7 +26,10 @@ void MotionPlanning::plan(const PlanRequest& request, const std::atomic<bool>& d
     plan.segment = planner_.segment();
     plan.parts = request.lines != nullptr && parts(*request.lines, request, dropped, plan);
   }
-  if (request.chain == nullptr || plan.parts) {
+  if (request.joint_path != nullptr) {
+    plan.fault = finish(planner_.begin(request.command, *request.joint_path, request.from), dropped);
+    plan.segment = planner_.segment();
+  } else if (request.chain == nullptr || plan.parts) {
     plan_one(request, dropped, plan);
   }
   plan.segment.ticket = request.lines != nullptr && !plan.parts ? 0 : request.command.ticket;

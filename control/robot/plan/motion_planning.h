@@ -20,7 +20,8 @@ struct PlanRequest {
   const Chain* lines = nullptr;  // the chain, if its lines may also be followed one by one
   bool leads = false;            // `then` is known: it follows, and is no chain
   MoveCommand then{};
-  double reserve = 0;  // part of the joints' limits that is left to a correction of the path
+  double reserve = 0;               // part of the joints' limits that is left to a correction of the path
+  JointPath* joint_path = nullptr;  // of a free motion: receives its path; is not used until the motion has ended
 };
 
 struct Plan {

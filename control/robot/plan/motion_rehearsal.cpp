@@ -16,8 +16,8 @@ constexpr int kShort = 2000;                // instants of a motion that is rehe
 }  // namespace
 
 bool MotionRehearsal::is_fine() const noexcept {
-  return draft_.segment.chain != nullptr || draft_.segment.wave.on() || draft_.work.settles_slowly() ||
-         findings_.nearly_singular();
+  return draft_.segment.chain != nullptr || draft_.segment.joint_path != nullptr || draft_.segment.wave.on() ||
+         draft_.work.settles_slowly() || findings_.nearly_singular();
 }
 
 // s between two instants, at most.

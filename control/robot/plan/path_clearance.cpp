@@ -44,7 +44,12 @@ bool PathClearance::joints_at(double place, const Joints& near, Joints& q) const
 Fault PathClearance::check(int& places) noexcept {
   const auto at = [this](double place, const Joints& near, Joints& q) { return joints_at(place, near, q); };
   for (; places > 0 && !walk_.done(); --places) {
-    const CollisionCheck::Step step = walk_.step(bodies_, at);
+    const JointPath* const path = draft_.segment.joint_path;
+    const CollisionCheck::Step step = path == nullptr
+                                          ? walk_.step(bodies_, at)
+                                          : walk_.step_along(
+                                                bodies_, [path](double place) { return path->at(place); },
+                                                [path](double from, double to) { return path->travel(from, to); });
     if (step == CollisionCheck::Step::Lost) {
       return {ErrorCode::Singular};
     }

@@ -12,6 +12,8 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kSlowestMotion = 1e-9;  // m/s, and parts of full speed: below it counts as no motion
+constexpr double kSamePlace = 1e-6;      // rad
+constexpr double kCornerFactor = 4;      // how much faster the speed along a corner may change than on a straight piece
 
 bool finite(const Target& target) noexcept {
   return target.joints.allFinite() && target.pose.position.allFinite() && target.pose.orientation.coeffs().allFinite();
@@ -134,6 +136,62 @@ void measure_tool_motion(const MoveCommand& command, Draft& draft) noexcept {
 }
 
 }  // namespace
+
+Fault find_goals(const Places& places, const MoveCommand& command, Draft& draft, Solutions& goals) noexcept {
+  Segment& s = draft.segment;
+  s.move = Move::Joint;
+  s.source = command.source;
+  if (!in_range(command) || !s.from.allFinite()) {
+    return {ErrorCode::Value};
+  }
+  MoveCommand joints = command;
+  joints.move = Move::Joint;
+  if (const Fault fault = resolve(places, joints, draft); !fault.ok()) {
+    return fault;
+  }
+  goals.count = 0;
+  goals.list[at(goals.count++)].q = s.to;
+  const Target& target = command.target;
+  if (!target.is_pose || target.posture || target.held != 0) {
+    return {};
+  }
+  const Inverse& inverse = places.inverse();
+  const Solutions all = target.known != nullptr ? *target.known : inverse.all(target.pose, s.to);
+  for (int i = 0; i < all.count && goals.count < static_cast<int>(goals.list.size()); ++i) {
+    const Joints& q = all.list[at(i)].q;
+    if (places.arm().beyond_limits(q) < 0 && (q - s.to).cwiseAbs().maxCoeff() > kSamePlace) {
+      goals.list[at(goals.count++)].q = q;
+    }
+  }
+  const auto nearer = [&](const Solution& a, const Solution& b) {
+    return (a.q - s.from).squaredNorm() < (b.q - s.from).squaredNorm();
+  };
+  std::sort(goals.list.begin() + 1, goals.list.begin() + goals.count, nearer);
+  return {};
+}
+
+void make_path(const Places& places, const MoveCommand& command, const JointPath& path, Draft& draft) noexcept {
+  Segment& s = draft.segment;
+  s.to = path.end();
+  s.end = places.arm().forward(s.to);
+  s.length = path.length();
+  if (s.length <= 0) {
+    return;
+  }
+  s.move = Move::Free;
+  s.joint_path = &path;
+  const Joints fastest = path.fastest();
+  s.limits = {command.speed, HUGE_VAL, HUGE_VAL};
+  s.most = {command.speed, 0, 0};
+  for (int i = 0; i < kAxes; ++i) {
+    s.limits.acceleration = std::min(s.limits.acceleration, shared(draft.joints.acceleration[i], fastest[i]));
+    s.limits.jerk = std::min(s.limits.jerk, shared(draft.joints.jerk[i], fastest[i]));
+    // The axis that is at its full speed sets these on a straight piece; on a corner all axes may be slower.
+    s.most.acceleration =
+        std::max(s.most.acceleration, kCornerFactor * draft.joints.acceleration[i] / draft.joints.velocity[i]);
+    s.most.jerk = std::max(s.most.jerk, kCornerFactor * draft.joints.jerk[i] / draft.joints.velocity[i]);
+  }
+}
 
 Fault make_path(const Places& places, const MoveCommand& command, Draft& draft) noexcept {
   Segment& s = draft.segment;

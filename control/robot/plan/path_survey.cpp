@@ -33,7 +33,9 @@ void PathSurvey::begin() noexcept {
   const Segment& s = draft_.segment;
   const bool chain = s.chain != nullptr;
   const double finest = std::max(s.way, 0.3 * s.turn.norm()) / (chain ? kChainSpacing : kSpacing);
-  count_ = std::clamp(static_cast<int>(std::min(finest, 1e6)), kFewestPlaces, chain ? kMaxPlaces : kMaxPlaces / 2);
+  count_ = s.joint_path != nullptr ? kMaxPlaces
+                                   : std::clamp(static_cast<int>(std::min(finest, 1e6)), kFewestPlaces,
+                                                chain ? kMaxPlaces : kMaxPlaces / 2);
   next_ = 1;
   samples_[0] = s.from;
   volumes_[0] = places_.arm().volume(s.from);
@@ -79,7 +81,8 @@ Fault PathSurvey::check_next() noexcept {
   }
   volumes_[k] = places_.arm().volume(here);
   findings_.note_volume(volumes_[k], spacing * next_, here);
-  if (misses_orientation(places_.arm(), draft_.segment.pose_at(spacing * next_), here)) {
+  if (draft_.segment.joint_path == nullptr &&
+      misses_orientation(places_.arm(), draft_.segment.pose_at(spacing * next_), here)) {
     draft_.work.settle_slowly();
   }
   return {};
@@ -105,7 +108,8 @@ Fault PathSurvey::finish() noexcept {
     tip.note(samples_[static_cast<std::size_t>(i)]);
   }
   s.tip_speed = tip.farthest() * count_ / s.length;
-  return misses_orientation(places_.arm(), s.end, s.to) ? Fault{ErrorCode::Unreachable} : Fault{};
+  return s.joint_path == nullptr && misses_orientation(places_.arm(), s.end, s.to) ? Fault{ErrorCode::Unreachable}
+                                                                                   : Fault{};
 }
 
 bool PathSurvey::find(double place, const Joints& near, Joints& q) const noexcept {

@@ -14,6 +14,7 @@ Planner::Planner(const Places& places, const JointLimits& joints, const ToolLimi
       survey_(places, draft_),
       wave_(places, draft_, survey_),
       clearance_(places, joints_, draft_, survey_),
+      search_(places, clearance_.bodies()),
       timing_(places, draft_, survey_.findings()),
       effort_(places, joints_),
       blending_(places, joints_, tool_, clearance_) {}
@@ -60,6 +61,34 @@ Fault Planner::begin(const ToolPath& chain, const Joints& from, double accelerat
   draft_.wave = draft_.segment.way > 0 ? wave : Wave{};
   survey_.begin();
   stage_ = Stage::Survey;
+  return {};
+}
+
+Fault Planner::begin(const MoveCommand& command, JointPath& path, const Joints& from) noexcept {
+  begin(from, command.acceleration);
+  draft_.work.begin(true);  // its places are known without inverse kinematics
+  Solutions goals;
+  Fault fault = find_goals(places_, command, draft_, goals);
+  if (fault.ok()) {
+    fault = search_.begin(from, goals, joints_.velocity, command.seed, path);
+  }
+  if (fault.ok()) {
+    free_ = {command, &path};
+    stage_ = Stage::Search;
+  }
+  return fault;
+}
+
+Fault Planner::search(int& places) noexcept {
+  const Fault fault = search_.work(places);
+  if (!fault.ok() || !search_.done()) {
+    return fault;
+  }
+  make_path(places_, free_.command, *free_.path, draft_);
+  stage_ = draft_.segment.length > 0 ? Stage::Survey : Stage::Done;
+  if (stage_ == Stage::Survey) {
+    survey_.begin();
+  }
   return {};
 }
 
@@ -135,6 +164,8 @@ void Planner::begin_effort() noexcept {
 Fault Planner::step(int& places) noexcept {
   Fault fault;
   switch (stage_) {
+    case Stage::Search:
+      return search(places);
     case Stage::Survey:
       fault = survey_.check(places);
       return fault.ok() && survey_.done() ? begin_wave() : fault;

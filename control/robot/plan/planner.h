@@ -7,6 +7,7 @@
 #include "control/robot/plan/blending.h"
 #include "control/robot/plan/draft.h"
 #include "control/robot/plan/effort_look.h"
+#include "control/robot/plan/free_search.h"
 #include "control/robot/plan/motion_timing.h"
 #include "control/robot/plan/path_clearance.h"
 #include "control/robot/plan/path_survey.h"
@@ -29,8 +30,11 @@ class Planner {
   // Begins with a path of many pieces that starts where the arm is at `from` and is not changed until the motion has
   // ended; its tool limits already include `acceleration`. Errors: Value.
   Fault begin(const ToolPath& chain, const Joints& from, double acceleration = 1, const Wave& wave = {}) noexcept;
+  // Begins with a free motion, whose path is searched for and written to `path`, which is not changed afterwards until
+  // the motion has ended. Allocates, like check() then. Errors: Value, Unreachable, JointLimit, Collision.
+  Fault begin(const MoveCommand& command, JointPath& path, const Joints& from) noexcept;
   // Checks up to `places` more places of it; done() then returns whether that was all. Errors: Unreachable, JointLimit,
-  // Singular, Workspace, Collision, Torque, Wave.
+  // Singular, Workspace, Collision, Torque, Wave, NoWay.
   Fault check(int places) noexcept;
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
   // Complete when done().
@@ -48,12 +52,13 @@ class Planner {
   }
 
  private:
-  // The steps: check reach, limits and singular positions; add a wave; check collisions; find the timing and rehearse
-  // it; check torques.
-  enum class Stage { Survey, Wave, Clearance, Timing, Effort, Done };
+  // The steps: search for a way; check reach, limits and singular positions; add a wave; check collisions; find the
+  // timing and rehearse it; check torques.
+  enum class Stage { Search, Survey, Wave, Clearance, Timing, Effort, Done };
 
   void begin(const Joints& from, double acceleration) noexcept;
   Fault step(int& places) noexcept;
+  Fault search(int& places) noexcept;
   Fault begin_wave() noexcept;
   Fault begin_clearance() noexcept;
   Fault end_clearance() noexcept;
@@ -70,6 +75,13 @@ class Planner {
   PathSurvey survey_;
   WaveCheck wave_;
   PathClearance clearance_;
+  FreeSearch search_;
+  // The free motion that is searched for.
+  struct Free {
+    MoveCommand command;
+    JointPath* path = nullptr;
+  };
+  Free free_;
   MotionTiming timing_;
   EffortLook effort_;
   Blending blending_;

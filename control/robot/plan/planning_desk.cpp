@@ -22,7 +22,8 @@ PlanningDesk::PlanningDesk(const Places& places, const JointLimits& joints, cons
                            const Settings& settings)
     : places_(places),
       tool_(tool),
-      due_(settings.plan_time / std::chrono::duration<double>(settings.period).count()),
+      period_(std::chrono::duration<double>(settings.period).count()),
+      due_(settings.plan_time / period_),
       in_tick_(settings.plan_in_tick),
       learned_(settings.learned),
       guarded_(settings.guarded),
@@ -88,7 +89,7 @@ double PlanningDesk::seconds_of(const PlanRequest& request) const noexcept {
   if (request.chain != nullptr) {
     return std::min(request.chain->at_speed(), kMostSeconds);
   }
-  if (command.move == Move::Joint || !(command.speed > 0)) {
+  if (command.move == Move::Joint || command.move == Move::Free || !(command.speed > 0)) {
     return 0;
   }
   const Arm& arm = places_.arm();
@@ -110,6 +111,7 @@ void PlanningDesk::ask(const PlanRequest& request) noexcept {
   asked_ = waits_ = true;
   waiting_ = request;
   periods_left_ = static_cast<int>(std::ceil(due_ * (1 + kPerSecond * seconds_of(request)) - 1e-6));
+  patience_ = request.command.within > 0 ? std::ceil(request.command.within / period_ - 1e-6) : HUGE_VAL;
   post();
 }
 
@@ -142,13 +144,14 @@ const Plan* PlanningDesk::take() noexcept {
     return nullptr;
   }
   post();
+  --patience_;
   if (periods_left_ > 0) {
     --periods_left_;
     return nullptr;
   }
   const auto made = [this] { return !waits_ && state_.load(std::memory_order_acquire) == State::Made; };
   if (!learned(made())) {
-    return nullptr;
+    return patience_ > 0 ? nullptr : give_up();
   }
   // In a replay the recorded answer may not be true yet; there is time to wait for it.
   while (!made()) {
@@ -157,6 +160,14 @@ const Plan* PlanningDesk::take() noexcept {
   }
   asked_ = false;
   return &plan_;
+}
+
+const Plan* PlanningDesk::give_up() noexcept {
+  given_up_.fault = {ErrorCode::NoWay};
+  given_up_.segment.source = waiting_.command.source;
+  given_up_.segment.ticket = waiting_.command.ticket;
+  forget();
+  return &given_up_;
 }
 
 bool PlanningDesk::holds_forgotten() noexcept {

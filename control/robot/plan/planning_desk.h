@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 
 #include "control/robot/plan/motion_planning.h"
 
@@ -36,7 +37,8 @@ class PlanningDesk {
   void ask(const PlanRequest& request) noexcept;
   // Abandons the plan in progress; no motion will follow on it.
   void forget() noexcept;
-  // Called once per period. Returns the plan if it is due and ready; it remains valid until the next request.
+  // Called once per period. Returns the plan if it is due and ready, or if the time for a search is up (NoWay); it
+  // remains valid until the next request.
   const Plan* take() noexcept;
   // The planner, for replacing its bodies; requires free() and no abandoned request in use.
   [[nodiscard]] Planner& planner() noexcept { return planning_.planner(); }
@@ -52,6 +54,8 @@ class PlanningDesk {
   [[nodiscard]] bool learned(bool what) const noexcept { return learned_ != nullptr ? learned_(what) : what; }
   [[nodiscard]] double seconds_of(const PlanRequest& request) const noexcept;
   void post() noexcept;
+  // Ends the search for a way that takes too long.
+  const Plan* give_up() noexcept;
   void work() noexcept;
   void run() noexcept;
   void look_for_work() noexcept;
@@ -59,7 +63,8 @@ class PlanningDesk {
 
   const Places& places_;
   ToolLimits tool_;
-  double due_ = 0;  // periods
+  double period_ = 0;  // s
+  double due_ = 0;     // periods
   bool in_tick_;
   bool (*learned_)(bool what) noexcept;
   decltype(Settings::guarded) guarded_;
@@ -69,7 +74,9 @@ class PlanningDesk {
   bool waits_ = false;   // for the thread to end an abandoned request
   bool forgot_ = false;  // an abandoned request that the thread may still use
   int periods_left_ = 0;
+  double patience_ = HUGE_VAL;  // periods, after which a motion that is not planned is not possible
   PlanRequest waiting_;
+  Plan given_up_;  // with the reason only
 
   std::atomic<State> state_{State::Free};
   std::atomic<bool> dropped_{false}, ending_{false}, soon_{false};

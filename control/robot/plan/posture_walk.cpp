@@ -11,6 +11,10 @@ Fault walk_in_posture(const Places& places, Draft& draft, double from, const Joi
   constexpr double kJump = radians(60);  // between neighbouring places: the arm would have to flip over
   constexpr double kSure = radians(30);
   constexpr double kAtLimit = radians(1);
+  if (draft.segment.joint_path != nullptr) {
+    q = draft.segment.joint_path->at(to);  // in any posture
+    return {};
+  }
   const Arm& arm = places.arm();
   const double finest = 1e-6 * draft.segment.length;
   const double finest_turn = 1e-9 * draft.segment.length;

@@ -13,7 +13,12 @@ constexpr std::size_t kLiving = 6;  // chains: one being built, one being planne
 }  // namespace
 
 ReadAhead::ReadAhead(const Places& places, const ToolLimits& tool)
-    : places_(places), tool_(tool), commands_(Chain::kMaxLines), chains_(kLiving), splines_(kLiving) {}
+    : places_(places),
+      tool_(tool),
+      commands_(Chain::kMaxLines),
+      chains_(kLiving),
+      splines_(kLiving),
+      joint_paths_(kLiving) {}
 
 void ReadAhead::clear() noexcept {
   count_ = scanned_ = single_ = given_ = 0;
@@ -31,6 +36,8 @@ void ReadAhead::swap(ReadAhead& other) noexcept {
   std::swap(chain_, other.chain_);
   splines_.swap(other.splines_);
   std::swap(spline_, other.spline_);
+  joint_paths_.swap(other.joint_paths_);
+  std::swap(joint_path_, other.joint_path_);
 }
 
 const MoveCommand& ReadAhead::command(int i) const noexcept {
@@ -45,7 +52,7 @@ bool ReadAhead::has_room() const noexcept {
     return true;
   }
   const MoveCommand& last = command(count_ - 1);
-  const bool goes_on = (last.move != Move::Joint && last.move != Move::Spline && last.zone > 0) ||
+  const bool goes_on = ((last.move == Move::Line || last.move == Move::Circle) && last.zone > 0) ||
                        (last.move == Move::Spline && last.more);
   return goes_on;
 }
@@ -140,8 +147,13 @@ ReadAhead::Next ReadAhead::next_chain() noexcept {
 ReadAhead::Next ReadAhead::next_single() noexcept {
   const MoveCommand& taken = take();
   const bool chain = count_ > 1 && single_ == 0 && command(0).zone > 0 && belongs(command(0)) && belongs(command(1));
-  const bool leads = count_ > 0 && command(0).move != Move::Spline && !chain;
-  return {nullptr, &taken, 0, 1, nullptr, leads ? &command(0) : nullptr};
+  const bool leads = count_ > 0 && command(0).move != Move::Spline && command(0).move != Move::Free && !chain;
+  Next next{nullptr, &taken, 0, 1, nullptr, leads ? &command(0) : nullptr};
+  if (taken.move == Move::Free) {
+    next.joint_path = &joint_paths_[joint_path_];
+    joint_path_ = (joint_path_ + 1) % joint_paths_.size();
+  }
+  return next;
 }
 
 void ReadAhead::parted() noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Motions of a job that wait to be planned. Lines with zones become one chain: as many as the job gives before another
-// kind of step. The points of a spline become one chain too.
+// kind of step. The points of a spline become one chain too. A free motion gets the memory for its path.
 
 #pragma once
 
@@ -28,6 +28,7 @@ class ReadAhead {
     add(commands_);
     add(chains_);
     add(splines_);
+    add(joint_paths_);
   }
   [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
   [[nodiscard]] int count() const noexcept { return count_; }
@@ -45,6 +46,7 @@ class ReadAhead {
     const Chain* lines = nullptr;          // the chain, if it consists of lines
     const MoveCommand* then = nullptr;     // the motion after a command, if it is known and begins no chain
     Wave wave{};                           // of a spline
+    JointPath* joint_path = nullptr;       // of a free motion, for its path; is not used while five others are taken
   };
   // Returns the next motion, which begins at `from`. `more`: other motions may follow at once.
   Next next(const Joints& from, bool more) noexcept;
@@ -78,6 +80,8 @@ class ReadAhead {
   std::size_t chain_ = 0;
   std::vector<Spline, Zeroed<Spline>> splines_;
   std::size_t spline_ = 0;
+  std::vector<JointPath, Zeroed<JointPath>> joint_paths_;
+  std::size_t joint_path_ = 0;
 };
 
 }  // namespace indurop::robot

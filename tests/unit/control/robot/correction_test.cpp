@@ -217,7 +217,7 @@ TEST_P(Correction_refuses, What_would_leave_its_path) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, Correction_refuses,
-    testing::Values(Refused{"A_joint_motion", "MOVJ B", "before a MOVJ"},
+    testing::Values(Refused{"A_joint_motion", "MOVJ B", "before another motion"},
                     Refused{"Here", "MOVL HERE OFFSET 10, 0, 0", "HERE, FOUND and BACK include the correction"},
                     Refused{"Twice", "CORRECT 0, 1, 0 LIMIT 20 mm RATE 50 mm/s", "CORRECT is on already"},
                     Refused{"Another_tool", "TOOL t", "tool and load must not change"}),

@@ -57,6 +57,29 @@ TEST(Job, Points_speeds_and_zones_reach_the_motion) {
   EXPECT_EQ(sut.report(0).state, JobState::Ended);
 }
 
+TEST(Job, A_free_motion_has_a_seed_and_a_time) {
+  const JobBook book = good(
+      "POINT A = JOINT 0 10 20 30 40 50\nZONE 10 mm\nSPEED 100 mm/s\nMOVE FREE TO A\n"
+      "POINT B = POSE 500 0 300 RPY 180 0 0\nMOVE FREE TO B OFFSET 0, 0, 5 SEED 7 WITHIN 500 ms SPEED 50%\n");
+  JobRunner sut(book);
+  JobRecorder port;
+  sut.start(0);
+  sut.step(0.01, port, port);
+  ASSERT_EQ(port.moves.size(), 2U);
+  for (const MoveCommand& move : port.moves) {
+    EXPECT_EQ(move.move, Move::Free);
+    EXPECT_EQ(move.zone, 0);
+    EXPECT_EQ(move.tool_speed, 0);
+  }
+  EXPECT_EQ(port.moves[0].seed, 0U);
+  EXPECT_EQ(port.moves[0].within, 10);
+  EXPECT_EQ(port.moves[0].speed, 1);
+  EXPECT_EQ(port.moves[1].seed, 7U);
+  EXPECT_EQ(port.moves[1].within, 0.5);
+  EXPECT_EQ(port.moves[1].speed, 0.5);
+  EXPECT_TRUE(port.moves[1].target.is_pose);
+}
+
 TEST(Job, A_spline_is_a_motion_for_each_of_its_points) {
   const JobBook book = good(
       "POINT A = JOINT 0 10 20 30 40 50\nPOINT B = POSE 500 0 300 RPY 180 0 0\nMOVS A B, A\nMOVJ A STRAIGHT\nMOVJ A\n");
@@ -177,9 +200,18 @@ INSTANTIATE_TEST_SUITE_P(
     Golden, JobErrorsTest,
     testing::Values(
         Bad{"MOVE A\n",
-            "a.job:1:1: error: unknown statement 'MOVE'; known are POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, "
+            "a.job:1:6: error: a motion around obstacles is MOVE FREE TO P; others are MOVJ, MOVL, MOVC and MOVS"},
+        Bad{"POINT A = JOINT 0 0 0 0 0 0\nMOVE FREE TO A SEED 1.5\n",
+            "a.job:2:21: error: a seed is a whole number from 0 to 4294967295"},
+        Bad{"POINT A = JOINT 0 0 0 0 0 0\nMOVE FREE TO A WITHIN 0 s\n",
+            "a.job:2:23: error: a search for a way may take up to 600 s, and more than 0"},
+        Bad{"POINT A = JOINT 0 0 0 0 0 0\nMOVJ A WITHIN 2 s\n",
+            "a.job:2:8: error: unexpected 'WITHIN'; one statement per line"},
+        Bad{"FLY A\n",
+            "a.job:1:1: error: unknown statement 'FLY'; known are POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, "
             "VAR, "
-            "SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, SEARCH, WEAVE, CORRECT, TRACK, PUSH, FOLLOW, SET, PULSE, WAIT, "
+            "SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, MOVE FREE TO, SEARCH, WEAVE, CORRECT, TRACK, PUSH, FOLLOW, SET, "
+            "PULSE, WAIT, "
             "ASK, "
             "CALL, "
             "ON, "

@@ -135,7 +135,8 @@ TEST(Path_output, A_pulse_begins_again_and_SET_replaces_it) {
 TEST(Path_output, Mistakes_are_named_where_they_are) {
   const std::pair<const char*, const char*> cases[] = {
       {"SET I4 ON BEFORE 5 mm\n", "a.job:1:1: error: BEFORE and AFTER are about the motion in the line above"},
-      {"MOVJ P\nSET I4 ON AFTER 5 mm\n", "a.job:2:17: error: the way of a MOVJ has no distance; give a time"},
+      {"MOVJ P\nSET I4 ON AFTER 5 mm\n",
+       "a.job:2:17: error: the way of a MOVJ or MOVE FREE has no distance; give a time"},
       {"MOVL P\nSET I4 = I5 AFTER 5 mm\n", "a.job:2:1: error: what is set on the way is computed before"},
       {"MOVL P\nSET I4 ON AFTER 5\n", "a.job:2:18: error: expected s or ms, found the end of the line"},
       {"PULSE I4\n", "a.job:1:9: error: expected a time, 0.5s or 200 ms, found the end of the line"},
