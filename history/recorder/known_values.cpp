@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known before the runs of a file: the first values, and the last ones of each module.
+// What is known before the runs of a file: the first values, the last ones of each module, and the version of its code.
 
 #include "history/recorder/recorder.h"
 #include "history/recorder/run_words.h"
+#include "history/recorder/versions.h"
 
 namespace indurop::recorder {
 
@@ -14,6 +15,28 @@ void Recorder::note(std::size_t track, const tape::Run& run) {
     known.values[value.variable].assign(value.bytes.begin(), value.bytes.end());
   }
   known.end_ns = run.tail.end_ns;
+}
+
+// Says which version of the module's code runs from this run on, if the file has not said that yet.
+Result<void, Problem> Recorder::write_version(std::size_t track, const tape::Run& run) {
+  std::uint32_t& known = known_[track].version;
+  const std::uint32_t number = tape::version_in(run.flags);
+  if (number == known) {
+    return {};
+  }
+  RecordedVersion version;
+  version.module = run.module < about_.modules.size() ? about_.modules[run.module] : std::to_string(run.module);
+  version.number = number;
+  version.first_run = run.tail.number;
+  version.first_tick = run.tail.tick;
+  if (auto found = follower_.version(number); found) {
+    version.exchanged = !found->of_start;
+    version.digest = std::move(found->digest);
+    version.file = std::move(found->file);
+  }
+  auto written = writer_->metadata(prefix_ + kVersionMetadata, to_text_map(version));
+  known = written.ok() ? number : known;
+  return written;
 }
 
 // Reads the values of the runs so far, without recording them.

@@ -117,6 +117,9 @@ void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& 
 Result<void, Problem> Recorder::begin_file() {
   channels_.assign(wanted_.size(), 0);
   keyframes_.begin_file();
+  for (Known& known : known_) {
+    known.version = 0;
+  }
   schemas_.clear();
   if (auto channels = add_own_channels(); !channels) {
     return channels;
@@ -276,7 +279,10 @@ Result<bool, Problem> Recorder::take_run(std::size_t track, std::int64_t until_n
     }
     first_values_written_ = true;
   }
-  auto written = write_keyframe(*held);
+  auto written = write_version(track, held->run);
+  if (written) {
+    written = write_keyframe(*held);
+  }
   if (written) {
     written = write_run(*held);
   }

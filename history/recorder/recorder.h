@@ -101,6 +101,7 @@ class Recorder {
   struct Known {
     std::vector<std::vector<std::uint8_t>> values;  // by variable; empty: not known
     std::int64_t end_ns = 0;                        // end of its last run
+    std::uint32_t version = 0;                      // of its module, as this file says; 0: it says nothing
   };
 
   // A run that was read from the tape, but is not or only partly written.
@@ -115,6 +116,7 @@ class Recorder {
   Result<void, base::Problem> write_first_values(const tape::Run& first);
   Result<void, base::Problem> write_known_values();
   void note(std::size_t track, const tape::Run& run);
+  Result<void, base::Problem> write_version(std::size_t track, const tape::Run& run);
   Result<bool, base::Problem> take_run(std::size_t track, std::int64_t until_ns);
   Result<void, base::Problem> write_run(Held& held);
   Result<void, base::Problem> write_part(const tape::Run& run, std::size_t part);

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include "config/check/check_parts.h"
 #include "core/keys/digest.h"
+#include "node/modules/kept_versions.h"
 #include "store/runtime/host.h"
 
 namespace indurop::node {
@@ -40,6 +42,7 @@ class CandidateCheck {
       return false;
     }
     candidate_.library.set_uses(uses_of(result.facts.front()));
+    candidate_.access = result.facts.front().file.access;
     if (task_.may_grow) {
       find_changes(result.facts.front());
     }
@@ -136,6 +139,15 @@ void make_places(const CandidateTask& task, Candidate& candidate) {
   }
 }
 
+// A recording of the exchange can be repeated only with both files.
+void keep_files(const CandidateTask& task, Candidate& candidate) {
+  for (const ModuleLibrary* version : {&task.running, &std::as_const(candidate.library)}) {
+    if (const auto kept = keep_version(task.keep_for, *version); !kept) {
+      candidate.notes.push_back(kept.error().text);
+    }
+  }
+}
+
 }  // namespace
 
 ModuleLibrary::Uses uses_of(const config::ModuleFacts& facts) {
@@ -182,6 +194,9 @@ Candidate make_candidate(const CandidateTask& task) {
     candidate.carry.loses |= candidate.variables.list(task.store, candidate.carry.plan);
     if (candidate.variables.changes_types()) {
       candidate.carry.carry_between_runs();
+    }
+    if (!task.keep_for.empty()) {
+      keep_files(task, candidate);
     }
   }
   return candidate;

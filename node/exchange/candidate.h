@@ -37,14 +37,17 @@ struct CandidateTask {
   // Of all modules, if it may also change types of variables that no other one uses; empty: it may not.
   std::span<const ModuleLibrary> others = {};
   std::span<const ConfiguredUses> configured = {};  // of the same
+  std::string keep_for = {};  // node in whose state the files of both versions are kept; empty: they are not
 };
 
 struct Candidate {
   ModuleLibrary library;
   Carry carry;
+  AllowedAccess access;             // what it reads and writes
   VariableChange variables;         // that it brings; the store has places for them
   std::vector<std::string> errors;  // all that are found; empty: it may run
   bool needs_restart = false;       // a node that is started with it has none of them
+  std::vector<std::string> notes;   // why files of versions are not kept
 };
 
 ModuleLibrary::Uses uses_of(const config::ModuleFacts& facts);

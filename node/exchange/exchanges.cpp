@@ -32,8 +32,14 @@ Exchanges::Exchanges(const Parts& parts, const config::CheckResult& check, const
 }
 
 void Exchanges::begin_version(std::uint32_t module) {
-  const std::string& digest = context_.parts.libraries[module].digest();
+  ModuleLibrary& library = context_.parts.libraries[module];
+  const std::string& digest = library.digest();
   context_.files.push_back(context_.parts.config.modules[module].file);
+  if (context_.track_of(module) != nullptr && !digest.empty()) {
+    const std::string file = std::filesystem::absolute(library.file()).string();
+    library.set_number(context_.parts.tape->versions().add_first(module, digest, file));
+    context_.set_version(module, library);
+  }
   rt::copy_text(record(module).digests[1], digest);
   record(module).version.store(digest.empty() ? 0 : 1);
 }

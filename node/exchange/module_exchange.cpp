@@ -42,7 +42,8 @@ void ModuleExchange::begin(const operate::ReloadRequest& request) {
                     request_.file.empty() ? context_.files[module_] : std::filesystem::path(request_.file),
                     context_.parts.store, context_.allowed[module_], running(), module_, context_.parts.may_grow,
                     held_ || context_.parts.keeps_types ? std::span<const ModuleLibrary>() : context_.parts.libraries,
-                    context_.configured});
+                    context_.configured,
+                    request_.dry_run || context_.track_of(module_) == nullptr ? std::string() : context_.parts.node});
 }
 
 void ModuleExchange::begin_back(scheduler::Exchange::Reason reason) {
@@ -137,9 +138,19 @@ void ModuleExchange::prepared() {
     step_ = Step::Over;
     return;
   }
+  for (const std::string& note : candidate.notes) {
+    context_.parts.console.warning(
+        "module {}: a replay of recordings across this exchange needs a file that is not "
+        "kept: {}",
+        record().name, note);
+  }
   other_ = std::move(candidate.library);
   carry_ = std::move(candidate.carry);
   variables_ = std::move(candidate.variables);
+  if (context_.track_of(module_) != nullptr) {
+    const std::string file = std::filesystem::absolute(other_.file()).string();
+    other_.set_number(context_.parts.tape->versions().add(module_, other_.digest(), file));
+  }
   if (failure_.empty()) {
     start_other();
   } else {
@@ -221,6 +232,7 @@ void ModuleExchange::replace_closed() {
   }
   context_.parts.engine.replace_closed(module_, {other_.functions().run, other_.functions().condition});
   std::swap(running(), other_);
+  context_.set_version(module_, running());
   set_version(scheduler::VersionState::Settled);
   answer(CommandResult::Done, "is stopped, and begins with this version at `indurop start`");
   if (faulted) {

@@ -21,6 +21,7 @@
 #include "scheduler/engine.h"
 #include "scheduler/module_command.h"
 #include "store/operate/reload.h"
+#include "store/tape/tape.h"
 
 namespace indurop::node {
 
@@ -33,9 +34,10 @@ struct ExchangeParts {
   scheduler::Engine& engine;
   vars::Store& store;
   Console& console;
-  bool simulated = false;    // virtual time does not pass while a version is prepared
-  bool may_grow = false;     // versions may bring variables that the store does not have
-  bool keeps_types = false;  // others know the types of variables: topics
+  bool simulated = false;      // virtual time does not pass while a version is prepared
+  bool may_grow = false;       // versions may bring variables that the store does not have
+  bool keeps_types = false;    // others know the types of variables: topics
+  tape::Tape* tape = nullptr;  // null: none
 };
 
 class ScheduleChange;
@@ -50,6 +52,16 @@ struct ExchangeContext {
   std::map<std::uint32_t, ModuleLibrary> previous;  // by module; started and not stopped
   Retired retired;
   ScheduleChange* schedule = nullptr;  // connected before any command is accepted
+  // Where the runs of a module are recorded; null: nowhere.
+  [[nodiscard]] tape::Track* track_of(std::uint32_t module) const noexcept {
+    return parts.tape == nullptr ? nullptr : parts.tape->of(module);
+  }
+  // The module does not run, and its next run is one of this version.
+  void set_version(std::uint32_t module, const ModuleLibrary& version) const noexcept {
+    if (tape::Track* const track = track_of(module); track != nullptr) {
+      track->set_version(version.number());
+    }
+  }
 };
 
 class ModuleExchange {

@@ -16,6 +16,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/read_file.h"
 #include "core/keys/digest.h"
 
 namespace indurop::node {
@@ -39,6 +40,17 @@ int copy_to_memory(const std::filesystem::path& file) {
     ::close(to);
   }
   return ok ? to : -1;
+}
+
+// Leaves the process most of the files that it may open: then there is none to keep.
+int open_to_keep(const std::filesystem::path& file) {
+  constexpr int kHighest = 512;
+  const int opened = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (opened >= kHighest) {
+    ::close(opened);
+    return -1;
+  }
+  return opened;
 }
 
 // What the linker has made read-only after it wrote addresses is not written.
@@ -79,11 +91,13 @@ Result<void, base::Problem> ModuleLibrary::load(const std::filesystem::path& fil
   mark_ = mark_of(file);
   std::string path = file.string();
   if (own_copy) {
-    copy_ = copy_to_memory(file);
-    if (copy_ < 0) {
+    opened_ = copy_to_memory(file);
+    if (opened_ < 0) {
       return base::Problem{fmt::format("cannot copy {}: {}", file.string(), std::strerror(errno))};
     }
-    path = fmt::format("/proc/self/fd/{}", copy_);
+    path = fmt::format("/proc/self/fd/{}", opened_);
+  } else {
+    opened_ = open_to_keep(file);
   }
   handle_ = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle_ == nullptr) {
@@ -162,7 +176,18 @@ bool ModuleLibrary::unload() {
 
 void ModuleLibrary::abandon() noexcept {
   handle_ = nullptr;
-  copy_ = -1;
+  opened_ = -1;
+}
+
+Result<std::string, base::Problem> ModuleLibrary::content() const {
+  auto content = base::read_file(fmt::format("/proc/self/fd/{}", opened_));
+  if (!content) {
+    return base::Problem{base::cannot_read(file_, content.error())};
+  }
+  if (keys::digest_of(*content) != digest_) {
+    return base::Problem{fmt::format("{} was overwritten after it was loaded; replace it instead", file_.string())};
+  }
+  return *std::move(content);
 }
 
 bool ModuleLibrary::is_outdated() const {
@@ -174,7 +199,8 @@ ModuleLibrary::ModuleLibrary(ModuleLibrary&& other) noexcept
       digest_(std::move(other.digest_)),
       mark_(other.mark_),
       handle_(std::exchange(other.handle_, nullptr)),
-      copy_(std::exchange(other.copy_, -1)),
+      opened_(std::exchange(other.opened_, -1)),
+      number_(other.number_),
       functions_(other.functions_),
       memory_(std::move(other.memory_)),
       uses_(std::move(other.uses_)) {}
@@ -184,7 +210,8 @@ ModuleLibrary& ModuleLibrary::operator=(ModuleLibrary&& other) noexcept {
   std::swap(digest_, other.digest_);
   std::swap(mark_, other.mark_);
   std::swap(handle_, other.handle_);
-  std::swap(copy_, other.copy_);
+  std::swap(opened_, other.opened_);
+  std::swap(number_, other.number_);
   std::swap(functions_, other.functions_);
   std::swap(memory_, other.memory_);
   std::swap(uses_, other.uses_);
@@ -195,8 +222,8 @@ ModuleLibrary::~ModuleLibrary() {
   if (handle_ != nullptr) {
     ::dlclose(handle_);
   }
-  if (copy_ >= 0) {
-    ::close(copy_);
+  if (opened_ >= 0) {
+    ::close(opened_);
   }
 }
 

@@ -32,6 +32,14 @@ class ModuleLibrary {
   // Returns whether the file was replaced or removed since it was loaded: the older version is still running.
   [[nodiscard]] bool is_outdated() const;
 
+  // Its number on the tape (store/tape/versions.h); 0: it has none.
+  void set_number(std::uint32_t number) noexcept { number_ = number; }
+  [[nodiscard]] std::uint32_t number() const noexcept { return number_; }
+
+  // Returns the bytes of the file that was loaded, also if the file was replaced or removed since. Errors: it was
+  // overwritten, or was not kept open, because the process has many files open.
+  [[nodiscard]] Result<std::string, base::Problem> content() const;
+
   // SHA-256 of the file that was loaded.
   [[nodiscard]] const std::string& digest() const noexcept { return digest_; }
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
@@ -67,7 +75,10 @@ class ModuleLibrary {
   std::string digest_;
   Mark mark_;
   void* handle_ = nullptr;
-  int copy_ = -1;  // stays open: the dynamic linker would mistake a second file with the same inode number for this one
+  // Stays open, for content(). For the copy, the dynamic linker would mistake a second file with its inode number for
+  // it.
+  int opened_ = -1;
+  std::uint32_t number_ = 0;
   ModuleDescriptor functions_;
   ModuleMemory memory_;
   Uses uses_;

@@ -12,7 +12,7 @@ namespace indurop::node {
 
 // A value that is recorded for the first time, and as unchanged, was present from the first run of the recording on: it
 // is known from the beginning. Reads from where the replay begins until all values are known, at worst to the end.
-void ReplayedModules::look_ahead() {
+void ReplayedModules::learn_early_values() {
   struct Runs {
     bool any = false;
     bool gap = false;

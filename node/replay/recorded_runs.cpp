@@ -48,6 +48,8 @@ Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::str
   }
   modules_ = sources.all[*source].modules;
   prefix_ = sources.all[*source].prefix;
+  node_ = sources.all[*source].text("node");
+  versions_ = recorder::versions_in(reader_, prefix_);
   real_minus_node_ns_ = sources.all[*source].number("real_minus_node_ns");
   format_ = std::max<std::int64_t>(sources.all[*source].number("format"), 1);
   const recording::TextMap end = recorder::last_metadata(reader_, prefix_ + recorder::kEndMetadata);

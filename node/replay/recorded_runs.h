@@ -21,6 +21,7 @@
 #include "history/explain/facts.h"
 #include "history/recorder/run_words.h"
 #include "history/recorder/sources.h"
+#include "history/recorder/versions.h"
 #include "history/recording/last_messages.h"
 #include "history/recording/mcap_reader.h"
 #include "store/vars/store.h"
@@ -100,6 +101,9 @@ class RecordedRuns {
   [[nodiscard]] std::int64_t format() const noexcept { return format_; }
   // CLOCK_REALTIME minus the node's time, when recorded; 0: virtual time.
   [[nodiscard]] std::int64_t real_minus_node_ns() const noexcept { return real_minus_node_ns_; }
+  [[nodiscard]] const std::string& node() const noexcept { return node_; }
+  // The versions of its modules' code, by module and first run; empty: recorded by an older release.
+  [[nodiscard]] const std::vector<recorder::RecordedVersion>& versions() const noexcept { return versions_; }
   // Facts about the node, its modules and commands to it; empty: the recording has none.
   [[nodiscard]] explain::Facts facts() const;
   [[nodiscard]] const std::vector<std::string>& modules() const noexcept { return modules_; }
@@ -115,6 +119,8 @@ class RecordedRuns {
 
   recording::McapReader reader_;
   std::string prefix_;  // of names in the file
+  std::string node_;
+  std::vector<recorder::RecordedVersion> versions_;
   std::int64_t format_ = 1;
   std::int64_t real_minus_node_ns_ = 0;
   std::vector<std::string> modules_;

@@ -36,6 +36,14 @@ class Repeater {
   bool repeat(ReplayedModule& module, const recorder::RunWords& run);
   // What the module keeps now; null: that cannot be taken. Valid until the next call.
   const ModuleMemory* memory_of(const ReplayedModule& module);
+  // For a version of the module that does not run: calls its start() or stop(), which change nothing in the store.
+  // start_apart() returns false after an error.
+  bool start_apart(const ReplayedModule& module, const ModuleLibrary& version);
+  void stop_apart(const ReplayedModule& module, const ModuleLibrary& version);
+  // Calls stop() of a module that is to be started again as another version.
+  void stop_for_exchange(ReplayedModule& module);
+  // Lets a module run again whose version was ended by a fault.
+  void resume(ReplayedModule& module);
   // Ends the modules.
   void stop();
 
@@ -59,6 +67,8 @@ class Repeater {
   bool restart(ReplayedModule& module);
   bool restart_process(std::uint32_t index);
   bool call(std::uint32_t index, const char* phase, void (*function)());
+  std::optional<std::string> call_apart(const ReplayedModule& module, const ModuleLibrary& version, const char* phase,
+                                        void (*function)());
   void run_process(ReplayedModule& module, const tape::RunTail& tail);
 
   const Options& options_;

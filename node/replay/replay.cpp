@@ -23,18 +23,21 @@ bool is_first_value(const RecordedRuns::Item& item) {
 }  // namespace
 
 Replay::Replay(const Options& options, Console& console, base::StopSignal& signals, const Checked& checked,
-               const Prepared& prepared, const Loaded& loaded)
+               const Prepared& prepared, Loaded& loaded)
     : options_(options),
       console_(console),
       signals_(signals),
       checked_(checked),
       store_(*prepared.store),
       modules_(options, console, checked, prepared, loaded),
+      versions_(options, console, checked, prepared, loaded.libraries),
       repeater_(options, console, signals, checked, prepared, loaded),
       comparison_(store_, console) {}
 
 bool Replay::begin(const RecordedRuns& recorded) {
-  const bool any = modules_.choose(recorded);
+  modules_.find_begin();
+  versions_.begin(modules_);
+  const bool any = modules_.look_ahead();
   const explain::Facts facts = recorded.facts();
   print_notes(checked_, modules_, recorded, facts, console_);
   comparison_.expect_forces(ForcedThen(facts.orders));
@@ -78,7 +81,8 @@ bool Replay::can_repeat(ReplayedModule& module, const recorder::RunWords& run) {
   module.next_number = run.tail.number + 1;
   const bool known = module.knows_inputs();
   module.too_early += known ? 0U : 1U;
-  const ReplayedMemory::Next next = module.kept.next(run.tail.number, run.anew, known);
+  const bool begins = std::exchange(module.begins_again, false) || run.anew;
+  const ReplayedMemory::Next next = module.kept.next(run.tail.number, begins, known && !module.lacks_version);
   module.restores = next == ReplayedMemory::Next::Restore;
   if (module.restores) {
     module.begin_with_recorded();
@@ -86,11 +90,11 @@ bool Replay::can_repeat(ReplayedModule& module, const recorder::RunWords& run) {
   if (next == ReplayedMemory::Next::Doubt) {
     note_doubt(module, run.tail.tick);
   }
-  module.note_knowledge(next, run.anew);
+  module.note_knowledge(next, begins);
   return next != ReplayedMemory::Next::Wait;
 }
 
-// A replay has one file of each module: what another version did comes from the recording, from this run on.
+// One file repeats the runs: what another version did comes from the recording, from this run on.
 void Replay::end_at_exchange(ReplayedModule& module, const recorder::RunWords& run) {
   console_.warning(
       "module {} was exchanged while it ran: from tick {} on its runs are another version's, which are not repeated; "
@@ -147,15 +151,19 @@ bool Replay::replay_run(const recorder::RunWords& run) {
     module.left_out += module.unknown_inputs.empty() ? 0U : 1U;
     return true;
   }
-  if (run.exchanged && module.repeated > 0) {
+  if (run.exchanged && module.repeated > 0 && !versions_.follows(module)) {
     end_at_exchange(module, run);
     return true;
+  }
+  if (!versions_.prepare(module, run, repeater_)) {
+    return false;
   }
   module.restart_due = module.restart_due || run.anew;
   const bool can = can_repeat(module, run);
   if (can && module.seen == 0 && !alone_) {
     modules_.write_first_outputs(module);
   }
+  versions_.prepare_return(module, run);
   const bool can_continue = !can || repeater_.repeat(module, run);
   module.take_outputs();
   if (!can) {
@@ -269,7 +277,12 @@ Ending Replay::run() {
     console_.error("{}", recorded.error().text);
     return {recorded.error().code, "the recording cannot be replayed"};
   }
-  if (!begin(*recorded)) {
+  modules_.choose(*recorded);
+  if (!versions_.load(*recorded, modules_)) {
+    return {kFailed, "the recording cannot be replayed"};
+  }
+  recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, store_);  // with their variables
+  if (!recorded || !begin(*recorded)) {
     return {kFailed, "the recording cannot be replayed"};
   }
   if (!options_.replay.output.empty() &&
@@ -286,6 +299,7 @@ Ending Replay::run() {
       whole = false;
     }
   }
+  versions_.end(modules_, repeater_);
   repeater_.stop();
   console_.print_messages(rt::MonoClock::now());
   console_.report_losses();

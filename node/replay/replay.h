@@ -11,6 +11,7 @@
 #include "node/replay/recorded_runs.h"
 #include "node/replay/repeater.h"
 #include "node/replay/replayed_modules.h"
+#include "node/replay/replayed_versions.h"
 
 namespace indurop::node {
 
@@ -18,7 +19,7 @@ class Replay {
  public:
   // All references are borrowed.
   Replay(const Options& options, Console& console, base::StopSignal& signals, const Checked& checked,
-         const Prepared& prepared, const Loaded& loaded);
+         const Prepared& prepared, Loaded& loaded);
 
   // Starts the modules, runs and compares, reports the outcome, ends the modules.
   Ending run();
@@ -44,6 +45,7 @@ class Replay {
   const Checked& checked_;
   vars::Store& store_;
   ReplayedModules modules_;
+  ReplayedVersions versions_;
   Repeater repeater_;
   Comparison comparison_;
   Repeated repeated_;

@@ -41,6 +41,8 @@ class ReplayedMemory {
   Next next(std::uint64_t run, bool restarted, bool possible) noexcept;
   // The next keyframe is put back, although no run is missing. Returns false if there is none to come.
   bool renew() noexcept { return renews_ = has_keyframes(); }
+  // The module may keep something else from now on: another version of it follows, and not all it keeps is known.
+  void doubt() noexcept { ++missing_; }
   // Returns true if the module declares that it keeps nothing.
   [[nodiscard]] bool is_empty() const noexcept { return memory_ != nullptr ? memory_->is_empty() : empty_process_; }
   // Returns true if the module declares all that it keeps.

@@ -44,6 +44,14 @@ void ReplayedModule::forget_older_values() noexcept {
   }
 }
 
+void ReplayedModule::use(const std::map<std::uint64_t, schema::Access>& access, const vars::Store& store) {
+  for (KnownValue& one : known) {
+    const auto by_code = access.find(store.directory()[one.variable].name_hash);
+    one.read = one.always_read || (by_code != access.end() && by_code->second.reads);
+    one.written = one.always_written || (by_code != access.end() && by_code->second.writes);
+  }
+}
+
 void ReplayedModule::write_inputs(vars::Store& store) const {
   for (const KnownValue& one : known) {
     const bool is_own = keeps_own && one.written;

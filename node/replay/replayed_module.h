@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/schema/elf.h"
 #include "history/recorder/run_words.h"
 #include "node/replay/distance.h"
 #include "node/replay/recorded_runs.h"
@@ -27,6 +28,8 @@ struct KnownValue {
   std::uint32_t variable = 0;
   bool read = false;
   bool written = false;
+  bool always_read = false;  // by the configuration, whatever the module's code does
+  bool always_written = false;
   bool has_value = false;
   bool ever_recorded = false;  // anywhere in the recording
   bool ever_compared = false;
@@ -74,6 +77,7 @@ struct ReplayedModule {
   std::vector<std::int64_t> codes;  // returned by functions and channels
   std::vector<std::vector<std::uint8_t>> answers;
   bool restart_due = false;  // it must be restarted before it runs again
+  bool was_stopped = false;  // its stop() was called for that
   bool restores = false;     // its keyframe is put back before this run
   bool disturbed = false;    // its inputs were changed while it ran
   std::int64_t busy_ns = 0;  // processor time of the repeated run; threads only
@@ -91,6 +95,11 @@ struct ReplayedModule {
   bool apart = false;  // it faulted only in the replay or only in the recording
   std::uint64_t apart_tick = 0;
 
+  // For a module that was exchanged in the recording.
+  std::map<std::uint64_t, schema::Access> version_access;  // what any of its versions reads or writes
+  bool lacks_version = false;                              // its version of this run is missing
+  bool begins_again = false;                               // that version begins with initial values
+
   // For a module that goes on with what it wrote itself.
   bool keeps_own = false;
   bool doubtful = false;  // a run was disturbed since it began with what the recorded module kept
@@ -102,6 +111,8 @@ struct ReplayedModule {
   [[nodiscard]] bool knows_inputs() const noexcept;
   // Keeps only the values of the run that was read last: the others may have changed since.
   void forget_older_values() noexcept;
+  // The version that runs now reads and writes this, and what the configuration says.
+  void use(const std::map<std::uint64_t, schema::Access>& access, const vars::Store& store);
   // Writes the known inputs of the next run to the store.
   void write_inputs(vars::Store& store) const;
   // The next run begins with all recorded values, also of what it wrote itself.

@@ -17,6 +17,11 @@ bool names(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
+schema::Access access_in(const std::map<std::uint64_t, schema::Access>& all, std::uint64_t hash) {
+  const auto found = all.find(hash);
+  return found == all.end() ? schema::Access{} : found->second;
+}
+
 // Returns why the module is not run again; empty: it is.
 std::string reason_to_leave_out(const config::Module& module, const std::vector<std::string>& imports) {
   if (module.operation == Operation::NonReal) {
@@ -55,7 +60,7 @@ ReplayedModule* ReplayedModules::of_recording(std::uint32_t recorded) const noex
   return is_recorded(recorded) ? of_recording_[recorded] : nullptr;
 }
 
-bool ReplayedModules::choose(const RecordedRuns& recorded) {
+void ReplayedModules::choose(const RecordedRuns& recorded) {
   match(recorded);
   for (const auto& module : modules_) {
     const config::Module& configured = checked_.config.modules[module->index];
@@ -79,9 +84,15 @@ bool ReplayedModules::choose(const RecordedRuns& recorded) {
       console_.info("module {} does not run: {}; what it wrote comes from the recording", module->name, reason);
     }
   }
+}
+
+void ReplayedModules::find_begin() {
   find_variables();
   find_keyframes_to_begin_at();
-  look_ahead();
+}
+
+bool ReplayedModules::look_ahead() {
+  learn_early_values();
   const bool any = std::any_of(modules_.begin(), modules_.end(), [](const auto& module) { return module->runs; });
   if (!any) {
     console_.error("no module of {} can run again", options_.replay.file.string());
@@ -109,8 +120,22 @@ void ReplayedModules::find_variables() {
       known.read = names(use.readers, modules_[i]->name);
       known.written = names(use.writers, modules_[i]->name);
       if (known.read || known.written) {
+        const schema::Access code = access_in(checked_.check.facts[i].file.access, entry->name_hash);
+        known.always_read = known.read && !code.reads;
+        known.always_written = known.written && !code.writes;
         modules_[i]->place[known.variable] = modules_[i]->known.size();
         modules_[i]->known.push_back(std::move(known));
+      }
+    }
+  }
+  for (const auto& module : modules_) {
+    for (const auto& [hash, access] : module->version_access) {
+      const auto* entry = access.reads || access.writes ? store_.find(hash) : nullptr;
+      KnownValue known;
+      known.variable = entry == nullptr ? 0 : static_cast<std::uint32_t>(entry - store_.directory().data());
+      if (entry != nullptr && !module->place.contains(known.variable)) {
+        module->place[known.variable] = module->known.size();
+        module->known.push_back(std::move(known));
       }
     }
   }

@@ -26,8 +26,13 @@ class ReplayedModules {
   ReplayedModules(const Options& options, const Console& console, const Checked& checked, const Prepared& prepared,
                   const Loaded& loaded);
 
-  // Determines which modules run, and reports why others do not. Returns false, after an error, if none does.
-  bool choose(const RecordedRuns& recorded);
+  // Determines which modules run, and reports why others do not.
+  void choose(const RecordedRuns& recorded);
+  // Finds their variables, and the keyframes at which they begin.
+  void find_begin();
+  // Finds the values that were present from the first run of the recording on, and leaves out modules whose inputs are
+  // recorded nowhere. Returns false, after an error, if no module runs.
+  bool look_ahead();
   // Adds a value to the known ones of its module. A first value goes to the store. Returns false, after an error, if it
   // is damaged.
   bool take(const RecordedValue& value);
@@ -51,9 +56,7 @@ class ReplayedModules {
  private:
   void match(const RecordedRuns& recorded);
   void find_variables();
-  // Finds the values that were present from the first run of the recording on, and leaves out modules whose inputs are
-  // recorded nowhere.
-  void look_ahead();
+  void learn_early_values();
   bool learn_early(const RecordedValue& value, ReplayedModule& module, bool after_a_gap) const;
   void leave_out_if_unknown(ReplayedModule& module) const;
   void find_keyframes_to_begin_at();

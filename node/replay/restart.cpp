@@ -3,9 +3,11 @@
 // restarted again, and what a module kept inside is put back.
 
 #include <thread>
+#include <utility>
 
 #include "core/rt/relax.h"
 #include "node/replay/repeater.h"
+#include "store/runtime/host.h"
 
 namespace indurop::node {
 namespace {
@@ -26,6 +28,47 @@ bool Repeater::call(std::uint32_t index, const char* phase, void (*function)()) 
     std::this_thread::sleep_for(kRestartPoll);
   }
   return call != nullptr && phases_.conclude(std::move(call));
+}
+
+std::optional<std::string> Repeater::call_apart(const ReplayedModule& module, const ModuleLibrary& version,
+                                                const char* phase, void (*function)()) {
+  if (function == nullptr) {
+    return std::nullopt;
+  }
+  runtime::bind_apart(version.inside());
+  auto call = phases_.begin(module.index, phase, function);
+  while (call != nullptr && !phases_.ended(*call, rt::MonoClock::now(), kRestartPatience)) {
+    std::this_thread::sleep_for(kRestartPoll);
+  }
+  auto failure =
+      call == nullptr ? std::optional<std::string>("it cannot be called") : Phases::failure_of(std::move(call));
+  runtime::bind_back(version.inside());
+  return failure;
+}
+
+bool Repeater::start_apart(const ReplayedModule& module, const ModuleLibrary& version) {
+  const auto failure = call_apart(module, version, "start", version.functions().start);
+  if (failure) {
+    console_.error("module {}: of {}: {}", module.name, version.file().string(), *failure);
+  }
+  return !failure;
+}
+
+void Repeater::stop_apart(const ReplayedModule& module, const ModuleLibrary& version) {
+  if (const auto failure = call_apart(module, version, "stop", version.functions().stop); failure) {
+    console_.warning("module {}: of {}: {}", module.name, version.file().string(), *failure);
+  }
+}
+
+void Repeater::stop_for_exchange(ReplayedModule& module) {
+  (void)call(module.index, "stop", libraries_[module.index].functions().stop);  // a failure is reported
+  module.was_stopped = true;
+}
+
+void Repeater::resume(ReplayedModule& module) {
+  module.write_outputs(store_);
+  module.state.record->state.store(scheduler::ModuleState::Running);
+  module.state.gate.store(scheduler::Gate::Open);
 }
 
 // A process has unlimited time, as long as it lives. One that dies stays dead until it is restarted.
@@ -80,7 +123,9 @@ bool Repeater::restart(ReplayedModule& module) {
     find_kept(module);
   } else {
     const auto& functions = libraries_[module.index].functions();
-    (void)call(module.index, "stop", functions.stop);  // a failure is reported
+    if (!std::exchange(module.was_stopped, false)) {
+      (void)call(module.index, "stop", functions.stop);  // a failure is reported
+    }
     good = call(module.index, "start", functions.start);
     module.state.record->state.store(scheduler::ModuleState::Running);
     module.state.gate.store(scheduler::Gate::Open);

@@ -25,6 +25,8 @@ struct TapeIndex {
   };
   std::vector<TapeVariable> variables;
   std::uint64_t tracks_offset = 0;
+  std::uint64_t versions_offset = 0;
+  std::uint32_t start_versions = 0;
   std::vector<Track> tracks;
 };
 // Checks that all offsets stay inside `memory`. Errors: Corrupt, VersionMismatch.

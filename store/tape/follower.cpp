@@ -50,6 +50,11 @@ std::span<const std::uint8_t> Follower::first_value(std::uint32_t variable) cons
   return {reinterpret_cast<const std::uint8_t*>(file_.data() + known.first_offset), known.size};
 }
 
+std::optional<Version> Follower::version(std::uint32_t number) const {
+  const auto* const places = reinterpret_cast<const TapeVersion*>(file_.data() + index_.versions_offset);
+  return find_version({places, std::size_t{index_.start_versions} + kLaterVersions}, index_.start_versions, number);
+}
+
 Follower::Items Follower::items_of(std::size_t track) const noexcept {
   const TapeIndex::Track& known = index_.tracks[track];
   const std::span<const std::uint32_t> all(known.items);

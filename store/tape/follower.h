@@ -7,6 +7,7 @@
 #include <indurop/result.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "store/tape/check.h"
 #include "store/tape/layout.h"
 #include "store/tape/track_reader.h"
+#include "store/tape/versions.h"
 #include "store/vars/shm_file.h"
 #include "store/vars/store.h"
 
@@ -41,6 +43,9 @@ class Follower {
     std::span<const std::uint32_t> written;
   };
   [[nodiscard]] Items items_of(std::size_t track) const noexcept;
+
+  // Returns the version of this number (versions.h); nothing: its place was taken by a later one.
+  [[nodiscard]] std::optional<Version> version(std::uint32_t number) const;
 
   // Reads the next run of a track; `run` is reused. Returns false if there is none yet.
   bool next(std::size_t track, Run& run) { return tracks_[track].next(run); }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layout of the tape: header, variables, their first values, and one track for each module. A track is a ring of 64-bit
-// words that one thread writes without ever waiting; a reader that is too slow loses the oldest runs and detects that.
-// A run on its track: the values at its start that differ from the last ones on the track, the changes during the run
-// of variables that it does not write, the values it wrote, one more of them in rotation whether it changed or not, and
-// Run at the end. Any change here requires a new kTapeAbi.
+// Layout of the tape: header, variables, their first values, versions of modules, and one track for each module. A
+// track is a ring of 64-bit words that one thread writes without ever waiting; a reader that is too slow loses the
+// oldest runs and detects that. A run on its track: the values at its start that differ from the last ones on the
+// track, the changes during the run of variables that it does not write, the values it wrote, one more of them in
+// rotation whether it changed or not, and Run at the end. Any change here requires a new kTapeAbi.
 
 #pragma once
 
@@ -15,7 +15,7 @@
 namespace indurop::tape {
 
 inline constexpr std::uint64_t kTapeMagic = 0x3145504154444e49ULL;  // "INDTAPE1"
-inline constexpr std::uint32_t kTapeAbi = 5;
+inline constexpr std::uint32_t kTapeAbi = 6;
 
 enum class EntryKind : std::uint32_t {
   Before = 1,  // value at the start of a run
@@ -39,6 +39,9 @@ enum RunFlags : std::uint32_t {
   kRestarted = 2,  // its module was restarted since its previous run
   kExchanged = 4,  // another version of its module's code runs since its previous run
 };
+// The flags above these bits: number of the TapeVersion that ran; 0: not known, as of processes.
+inline constexpr std::uint32_t kVersionShift = 16;
+inline constexpr std::uint32_t kMaxVersionNumber = 0xffff;
 
 // Maximum clock readings recorded per run: a run with more of them waits for something, or measures.
 inline constexpr int kMaxReadings = 64;
@@ -96,6 +99,16 @@ struct TapeTrack {
 };
 inline constexpr std::uint32_t kOthers = 0xffffffff;
 
+// A version of a module's code that was loaded. Those with which the node started are the first ones; later ones share
+// kLaterVersions places in rotation. Another load of the same file is another version.
+struct TapeVersion {
+  std::atomic<std::uint32_t> number;  // from 1; stored last; 0: none, or it is being written
+  std::uint32_t module;               // index in the run block
+  char digest[72];                    // SHA-256 of its file
+  char file[432];                     // path with which it was loaded; empty: it is longer
+};
+inline constexpr std::uint32_t kLaterVersions = 64;
+
 struct TapeHeader {
   std::atomic<std::uint64_t> magic;  // stored last
   std::uint32_t abi;
@@ -107,6 +120,9 @@ struct TapeHeader {
   std::uint64_t node_start_time;  // field 22 of /proc/PID/stat
   std::uint64_t variables_offset;
   std::uint64_t tracks_offset;
+  std::uint64_t versions_offset;
+  std::uint32_t start_versions;  // places for versions of the start: one for each module
+  std::uint32_t reserved;
   std::atomic<std::uint64_t> order;  // number of runs started so far
 };
 

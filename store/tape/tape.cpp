@@ -22,6 +22,7 @@ constexpr std::uint64_t up(std::uint64_t bytes) noexcept {
 struct Layout {
   std::uint64_t variables = up(sizeof(TapeHeader));
   std::uint64_t tracks = 0;
+  std::uint64_t versions = 0;
   std::vector<std::uint64_t> first;  // of each variable
   std::vector<std::uint64_t> items;  // of each track
   std::vector<std::uint64_t> words;
@@ -35,10 +36,11 @@ std::vector<std::uint32_t> items_of(const TrackPlan& track) {
   return items;
 }
 
-Layout lay_out(std::span<const vars::DirectoryEntry> directory, const TapePlan& plan) {
+Layout lay_out(std::span<const vars::DirectoryEntry> directory, const TapePlan& plan, std::size_t modules) {
   Layout layout;
   layout.tracks = up(layout.variables + directory.size() * sizeof(TapeVariable));
-  layout.total = up(layout.tracks + plan.tracks.size() * sizeof(TapeTrack));
+  layout.versions = up(layout.tracks + plan.tracks.size() * sizeof(TapeTrack));
+  layout.total = up(layout.versions + (modules + kLaterVersions) * sizeof(TapeVersion));
   for (const vars::DirectoryEntry& entry : directory) {
     layout.first.push_back(layout.total);
     layout.total += words_of(entry.value_size) * sizeof(std::uint64_t);
@@ -65,7 +67,7 @@ void keep_first_values(std::byte* memory, const vars::Store& store, const Layout
 
 Result<std::unique_ptr<Tape>> Tape::create(const std::string& node, const vars::Store& store, const TapePlan& plan,
                                            std::size_t modules) {
-  const Layout layout = lay_out(store.directory(), plan);
+  const Layout layout = lay_out(store.directory(), plan, modules);
   auto file = vars::ShmFile::create(vars::tape_file(node), layout.total);
   if (!file) {
     return file.error();
@@ -82,6 +84,9 @@ Result<std::unique_ptr<Tape>> Tape::create(const std::string& node, const vars::
   header.node_start_time = vars::process_start_time(::getpid());
   header.variables_offset = layout.variables;
   header.tracks_offset = layout.tracks;
+  header.versions_offset = layout.versions;
+  header.start_versions = static_cast<std::uint32_t>(modules);
+  tape->versions_ = VersionTable({reinterpret_cast<TapeVersion*>(memory + layout.versions), modules + kLaterVersions});
   keep_first_values(memory, store, layout, plan);
   tape->by_module_.resize(modules);
   for (std::size_t i = 0; i < plan.tracks.size(); ++i) {

@@ -12,6 +12,7 @@
 
 #include "store/tape/plan.h"
 #include "store/tape/track.h"
+#include "store/tape/versions.h"
 #include "store/vars/shm_file.h"
 #include "store/vars/store.h"
 
@@ -34,6 +35,9 @@ class Tape {
   void soon(std::uint32_t module) const noexcept;
   // Track::end() of a taped module. Real-time safe.
   bool end(std::uint32_t module, const RunTail& times, std::uint32_t flags) noexcept;
+  // The versions of modules' code, which runs on the tracks carry. Not real-time safe.
+  [[nodiscard]] VersionTable& versions() noexcept { return versions_; }
+
   // The track of variables that no module of the schedule uses; null if there are none. Real-time safe.
   [[nodiscard]] Track* others() const noexcept { return others_; }
 
@@ -56,6 +60,7 @@ class Tape {
   std::vector<std::unique_ptr<Track>> tracks_;
   std::vector<Place> by_module_;
   Track* others_ = nullptr;
+  VersionTable versions_;
 };
 
 }  // namespace indurop::tape

@@ -15,6 +15,7 @@ namespace {
 
 using rt::kRelaxed;
 constexpr std::uint64_t kAhead = 64;  // words claimed in advance, so that not each entry has to claim
+constexpr std::uint32_t kOnce = kRestarted | kExchanged;  // marks of one run
 constexpr std::uint64_t kStepsPerClockReading =
     16;  // variables checked and words written in the time of a clock reading
 
@@ -44,7 +45,7 @@ Track::Track(std::byte* tape, TapeTrack& shared, const vars::Store& store, Write
       at_(head_),
       claimed_(shared.claimed.load(kRelaxed)),
       number_(shared.runs.load(kRelaxed)),
-      restarted_(number_ > 0 ? std::uint32_t{kRestarted} : 0U),  // another process of a module that has run
+      marks_(number_ > 0 ? std::uint32_t{kRestarted} : 0U),  // another process of a module that has run
       shared_(shared),
       words_(reinterpret_cast<std::uint64_t*>(tape + shared.data_offset)),
       mask_(shared.words - 1),
@@ -61,6 +62,12 @@ Track::Track(std::byte* tape, TapeTrack& shared, const vars::Store& store, Write
     largest = std::max(largest, words_of(entry.value_size));
   }
   copy_.resize(largest);
+}
+
+void Track::note_exchange() noexcept {
+  const std::uint32_t before = marks_.load(std::memory_order_acquire);
+  marks_.store(other_.load(std::memory_order_acquire) | kExchanged | (before & kOnce), std::memory_order_release);
+  other_.store(before & ~kOnce, std::memory_order_release);
 }
 
 void Track::claim(std::uint64_t words) noexcept {
@@ -125,7 +132,7 @@ bool Track::begin() noexcept {
   }
   if (shows_open_) {
     shared_.open_order.store(order_, kRelaxed);
-    shared_.open_flags.store(restarted_.load(kRelaxed), kRelaxed);
+    shared_.open_flags.store(marks_.load(kRelaxed), kRelaxed);
     show_open();
   }
   return much(reads_end_, head_);
@@ -176,7 +183,7 @@ void Track::end_of_dead(RunTail times) noexcept {
   at_ = shared_.open.load(std::memory_order_acquire);
   if (at_ > head_) {
     order_ = shared_.open_order.load(kRelaxed);
-    restarted_.store(static_cast<std::uint32_t>(shared_.open_flags.load(kRelaxed)), kRelaxed);
+    marks_.store(static_cast<std::uint32_t>(shared_.open_flags.load(kRelaxed)), kRelaxed);
     times.start_ns = std::max(times.start_ns, times.release_ns);
     publish(times, kFaulted);
   }
@@ -221,15 +228,15 @@ void Track::record_next_again() noexcept {
 // Written from available data, and a mark without a division: most runs consist only of this.
 void Track::publish(const RunTail& times, std::uint32_t flags) noexcept {
   claim(1 + kRunWords);
-  const std::uint32_t restarted = restarted_.load(std::memory_order_acquire);
-  if (restarted != 0) [[unlikely]] {
-    restarted_.store(0, kRelaxed);
+  const std::uint32_t marks = marks_.load(std::memory_order_acquire);
+  if ((marks & kOnce) != 0) [[unlikely]] {
+    marks_.store(marks & ~kOnce, kRelaxed);
   }
   std::uint64_t* const words = words_;
   const std::uint64_t mask = mask_;
   std::uint64_t at = at_;
   const auto write = [&](std::uint64_t word) { __atomic_store_n(words + (at++ & mask), word, __ATOMIC_RELAXED); };
-  write(std::bit_cast<std::uint64_t>(EntryHead{EntryKind::Run, flags | restarted}));
+  write(std::bit_cast<std::uint64_t>(EntryHead{EntryKind::Run, flags | marks}));
   // In the order of RunTail.
   static_assert(kRunWords == 6 && offsetof(RunTail, order) == 8 && offsetof(RunTail, tick) == 16 &&
                 offsetof(RunTail, release_ns) == 24 && offsetof(RunTail, start_ns) == 32);

@@ -25,9 +25,14 @@ class alignas(kLine) Track {
   Track(std::byte* tape, TapeTrack& shared, const vars::Store& store, Writer writer = Writer::Node);
 
   // The module restarts before its next run; call while it does not run, on any thread.
-  void note_restart() noexcept { restarted_.store(kRestarted, std::memory_order_release); }
-  // Another version of the module's code runs from the run on that begins next. On the thread that runs it.
-  void note_exchange() noexcept { restarted_.store(kExchanged, std::memory_order_release); }
+  void note_restart() noexcept { marks_.fetch_or(kRestarted, std::memory_order_acq_rel); }
+  // The number of the version of its code (versions.h); likewise.
+  void set_version(std::uint32_t number) noexcept { marks_.store(mark_of(number), std::memory_order_release); }
+  // The number of the version that the next note_exchange() is about. Any thread, while no exchange is watched for.
+  void set_other_version(std::uint32_t number) noexcept { other_.store(mark_of(number), std::memory_order_release); }
+  // The other version of the module's code runs from the run on that begins next, and this one becomes the other one.
+  // On the thread that runs it.
+  void note_exchange() noexcept;
   // Records the values at the start of a run. Returns true if that was much: it took longer than a clock reading.
   // Real-time safe: no lock, no allocation, no system call.
   bool begin() noexcept;
@@ -57,6 +62,7 @@ class alignas(kLine) Track {
     bool scalar = false;
   };
 
+  static constexpr std::uint32_t mark_of(std::uint32_t version) noexcept { return version << kVersionShift; }
   bool record_changed(Item& item, EntryKind kind, bool anyway) noexcept;
   void record_entry(Item& item, EntryKind kind) noexcept;
   void record_next_again() noexcept;
@@ -75,9 +81,9 @@ class alignas(kLine) Track {
   std::uint64_t order_ = 0;
   std::uint64_t number_ = 0;
   std::uint64_t answer_words_left_ = 0;
-  std::uint16_t clock_left_ = 0;          // readings of this run that may still be recorded
-  std::uint16_t answers_left_ = 0;        // answers of this run that may still be recorded
-  std::atomic<std::uint32_t> restarted_;  // kRestarted, kExchanged or 0
+  std::uint16_t clock_left_ = 0;      // readings of this run that may still be recorded
+  std::uint16_t answers_left_ = 0;    // answers of this run that may still be recorded
+  std::atomic<std::uint32_t> marks_;  // of the next run: its version, and kRestarted or kExchanged
   TapeTrack& shared_;
   std::uint64_t* words_;
   std::uint64_t mask_;
@@ -90,7 +96,8 @@ class alignas(kLine) Track {
   std::uint32_t again_ = 0;
   std::vector<Item> items_;  // only read, both, only written
 
-  std::vector<std::uint64_t> copy_;  // of one value
+  std::vector<std::uint64_t> copy_;      // of one value
+  std::atomic<std::uint32_t> other_{0};  // mark of the version that does not run
 };
 
 }  // namespace indurop::tape

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads a closed MCAP file (https://mcap.dev/spec) by its indexes, with nothing of ours: chunks with the offsets of each
-channel's messages, and the records of runs of indurop/runs."""
+channel's messages, the records of runs of indurop/runs, and metadata records."""
 
 import ctypes
 import struct
 
-CHUNK_INDEX, CHANNEL = 8, 4
+CHUNK_INDEX, CHANNEL, METADATA_INDEX = 8, 4, 13
 
 
 class McapFile:
@@ -13,7 +13,7 @@ class McapFile:
         self.bytes = path.read_bytes()
         footer = len(self.bytes) - 8 - 20
         summary = struct.unpack_from("<Q", self.bytes, footer)[0]
-        self.topics, self.metadata, self.chunks = {}, {}, []
+        self.topics, self.metadata, self.chunks, self.records = {}, {}, [], []
         at = summary
         while at < footer - 9:
             opcode, length = struct.unpack_from("<BQ", self.bytes, at)
@@ -22,18 +22,19 @@ class McapFile:
                 self._take_channel(content)
             elif opcode == CHUNK_INDEX:
                 self.chunks.append(Chunk(content))
+            elif opcode == METADATA_INDEX:
+                self._take_metadata(struct.unpack_from("<Q", content)[0])
             at += 9 + length
 
     def _take_channel(self, content):
         number = struct.unpack_from("<H", content)[0]
         topic, at = text_at(content, 4)
         _, at = text_at(content, at)
-        end = at + 4 + struct.unpack_from("<I", content, at)[0]
-        at, metadata = at + 4, {}
-        while at < end:
-            key, at = text_at(content, at)
-            metadata[key], at = text_at(content, at)
-        self.topics[number], self.metadata[number] = topic, metadata
+        self.topics[number], self.metadata[number] = topic, map_at(content, at)
+
+    def _take_metadata(self, offset):
+        name, at = text_at(self.bytes, offset + 9)
+        self.records.append((name, map_at(self.bytes, at)))
 
     def records_of(self, chunk):
         """The uncompressed records of a chunk."""
@@ -79,6 +80,15 @@ class Chunk:
         for at in range(36, 36 + size, 10):
             number, offset = struct.unpack_from("<HQ", content, at)
             self.indexes[number] = offset
+
+
+def map_at(content, at):
+    end = at + 4 + struct.unpack_from("<I", content, at)[0]
+    at, found = at + 4, {}
+    while at < end:
+        key, at = text_at(content, at)
+        found[key], at = text_at(content, at)
+    return found
 
 
 def text_at(content, at):
