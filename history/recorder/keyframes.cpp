@@ -16,7 +16,7 @@ bool Recorder::records_inputs(std::uint32_t module) const {
   for (std::size_t track = 0; track < follower_.tracks(); ++track) {
     if (follower_.module_of(track) == module) {
       const auto read = follower_.items_of(track).only_read;
-      return std::all_of(read.begin(), read.end(), [this](std::uint32_t i) { return wanted_[i]; });
+      return std::all_of(read.begin(), read.end(), [this](std::uint32_t i) { return places_[i].wanted; });
     }
   }
   return false;

@@ -12,7 +12,9 @@ using base::Problem;
 void Recorder::note(std::size_t track, const tape::Run& run) {
   Known& known = known_[track];
   for (const tape::Value& value : run.values) {
-    known.values[value.variable].assign(value.bytes.begin(), value.bytes.end());
+    if (value.variable < known.values.size()) {
+      known.values[value.variable].assign(value.bytes.begin(), value.bytes.end());
+    }
   }
   known.end_ns = run.tail.end_ns;
 }
@@ -41,10 +43,11 @@ Result<void, Problem> Recorder::write_version(std::size_t track, const tape::Run
 
 // Reads the values of the runs so far, without recording them.
 void Recorder::learn() {
-  begin_ns_ = store_.now().time_since_epoch().count();
+  begin_ns_ = store_->now().time_since_epoch().count();
   tape::Run run;
   for (std::size_t track = 0; track < follower_.tracks(); ++track) {
     while (follower_.next(track, run)) {
+      add_places();
       note(track, run);
     }
   }
@@ -54,8 +57,11 @@ void Recorder::learn() {
 // runs before it.
 Result<void, Problem> Recorder::write_first_values(const tape::Run& first) {
   const std::int64_t before = first.tail.release_ns - about_.basic_period_ns;
-  for (std::uint32_t i = 0; first.tail.number == 0 && i < wanted_.size(); ++i) {
+  for (std::uint32_t i = 0; first.tail.number == 0 && i < places_.size(); ++i) {
     const tape::Value value{tape::EntryKind::Run, i, follower_.first_value(i)};
+    if (value.bytes.empty()) {
+      continue;  // it appeared later
+    }
     if (auto written = write_value(value, kOthers, before, before); !written) {
       return written;
     }

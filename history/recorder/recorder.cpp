@@ -26,6 +26,11 @@ std::uint32_t module_of(const tape::Run& run) {
   return run.module == tape::kOthers ? kOthers : run.module;
 }
 
+bool is_wanted(const std::vector<std::string>& globs, const std::string& name) {
+  return globs.empty() || std::any_of(globs.begin(), globs.end(),
+                                      [&name](const std::string& glob) { return schema::glob_match(glob, name); });
+}
+
 recording::View view(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
@@ -70,7 +75,7 @@ Result<Recorder, Problem> Recorder::create(const std::filesystem::path& path, co
 }
 
 const schema::Variable& Recorder::variable(std::uint32_t index) const {
-  return store_.schema().variables[store_.directory()[index].schema_index];
+  return store_->schema().variables[store_->directory()[index].schema_index];
 }
 
 std::uint64_t Recorder::real_time(std::int64_t node_ns) const noexcept {
@@ -84,38 +89,53 @@ std::uint64_t Recorder::log_time(std::int64_t node_ns) const noexcept {
 }
 
 void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& matched) {
+  globs_ = globs;
+  follower_.show_later_variables();
   const auto count = static_cast<std::uint32_t>(follower_.variables().size());
-  wanted_.assign(store_.directory().size(), globs.empty());
-  for (std::size_t glob = 0; glob < globs.size(); ++glob) {
-    for (std::uint32_t i = 0; i < wanted_.size(); ++i) {
-      if (schema::glob_match(globs[glob], variable(i).name)) {
-        matched[glob] = true;
-        wanted_[i] = true;
-      }
+  for (std::uint32_t i = 0; i < store_->directory().size(); ++i) {
+    for (std::size_t glob = 0; glob < globs.size(); ++glob) {
+      matched[glob] = matched[glob] || schema::glob_match(globs[glob], variable(i).name);
     }
-  }
-  for (std::uint32_t i = 0; i < wanted_.size(); ++i) {
-    if (wanted_[i] && (i >= count || follower_.variables()[i].taped == 0)) {
-      (i >= count ? missing_.appeared : missing_.too_large).push_back(variable(i).name);
-      wanted_[i] = false;
+    if (i >= count && is_wanted(globs, variable(i).name)) {
+      missing_.appeared.push_back(variable(i).name);
     }
-  }
-  wanted_.resize(count);
-  copied_.resize(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const schema::Type& type = variable(i).type;
-    copied_[i] = recording::lies_as_cdr(type) && type.size() == follower_.variables()[i].size;
   }
   held_.resize(follower_.tracks());
   known_.resize(follower_.tracks());
+  add_places();
+}
+
+// Variables that appear while the node runs are recorded from the first run on that uses them.
+void Recorder::add_places() {
+  const auto count = static_cast<std::uint32_t>(follower_.variables().size());
+  if (store_->directory().size() < count) {
+    auto again = vars::Store::attach(about_.node, vars::Mode::ReadOnly);
+    if (!again || again->directory().size() < count || !follower_.is_of(*again)) {
+      return;
+    }
+    own_store_ = std::make_unique<vars::Store>(std::move(again).value());
+    store_ = own_store_.get();
+  }
+  for (auto i = static_cast<std::uint32_t>(places_.size()); i < count; ++i) {
+    const tape::TapeVariable& taped = follower_.variables()[i];
+    const schema::Type& type = variable(i).type;
+    const bool wanted = is_wanted(globs_, variable(i).name);
+    std::erase(missing_.appeared, variable(i).name);
+    if (wanted && taped.taped == 0) {
+      missing_.too_large.push_back(variable(i).name);
+    }
+    places_.push_back({wanted && taped.taped != 0, recording::lies_as_cdr(type) && type.size() == taped.size, 0});
+  }
   for (Known& known : known_) {
-    known.values.resize(count);
+    known.values.resize(places_.size());
   }
 }
 
 // Writes everything that precedes the first run.
 Result<void, Problem> Recorder::begin_file() {
-  channels_.assign(wanted_.size(), 0);
+  for (Place& place : places_) {
+    place.channel = 0;
+  }
   keyframes_.begin_file();
   for (Known& known : known_) {
     known.version = 0;
@@ -184,8 +204,8 @@ Result<std::uint16_t, Problem> Recorder::schema_of(std::string_view name, const 
 }
 
 Result<std::uint16_t, Problem> Recorder::channel_of(std::uint32_t index) {
-  if (channels_[index] != 0) {
-    return channels_[index];
+  if (places_[index].channel != 0) {
+    return places_[index].channel;
   }
   const schema::Variable& known = variable(index);
   const recording::OmgIdl idl = recording::omg_idl(known.type);
@@ -195,21 +215,21 @@ Result<std::uint16_t, Problem> Recorder::channel_of(std::uint32_t index) {
   }
   auto channel = writer_->add_channel(*schema, prefix_ + known.name, "cdr", metadata_of(known));
   if (channel) {
-    channels_[index] = *channel;
+    places_[index].channel = *channel;
   }
   return channel;
 }
 
 Result<void, Problem> Recorder::write_value(const tape::Value& value, std::uint32_t module, std::int64_t time_ns,
                                             std::int64_t release_ns) {
-  if (!wanted_[value.variable]) {
+  if (value.variable >= places_.size() || !places_[value.variable].wanted) {
     return {};
   }
   auto channel = channel_of(value.variable);
   if (!channel) {
     return std::move(channel).error();
   }
-  if (copied_[value.variable]) {
+  if (places_[value.variable].copied) {
     cdr_.assign(recording::kCdrHead.begin(), recording::kCdrHead.end());
     cdr_.insert(cdr_.end(), value.bytes.begin(), value.bytes.end());
   } else if (!recording::to_cdr(variable(value.variable).type, value.bytes, cdr_)) {
@@ -269,6 +289,9 @@ Result<bool, Problem> Recorder::take_run(std::size_t track, std::int64_t until_n
       held.reset();
       return false;
     }
+    if (follower_.variables().size() > places_.size()) {
+      add_places();
+    }
   }
   if (held->run.tail.end_ns >= until_ns) {
     return false;
@@ -320,7 +343,8 @@ Result<void, Problem> Recorder::take(std::int64_t until_ns) {
 }
 
 std::size_t Recorder::variables() const noexcept {
-  return static_cast<std::size_t>(std::count(wanted_.begin(), wanted_.end(), true));
+  return static_cast<std::size_t>(
+      std::count_if(places_.begin(), places_.end(), [](const Place& place) { return place.wanted; }));
 }
 
 std::optional<std::int64_t> Recorder::waiting_ns() const noexcept {

@@ -90,12 +90,12 @@ class Recorder {
   [[nodiscard]] std::size_t variables() const noexcept;
   // Requested variables that no tape records, because they are too large.
   [[nodiscard]] const std::vector<std::string>& too_large() const noexcept { return missing_.too_large; }
-  // Requested variables that the tape does not have, because they appeared while the node runs.
+  // Requested variables that appeared while the node runs, and that no module has used yet.
   [[nodiscard]] const std::vector<std::string>& appeared() const noexcept { return missing_.appeared; }
 
  private:
   Recorder(std::string prefix, const vars::Store& store, tape::Follower follower, About about)
-      : prefix_(std::move(prefix)), store_(store), follower_(std::move(follower)), about_(std::move(about)) {}
+      : prefix_(std::move(prefix)), store_(&store), follower_(std::move(follower)), about_(std::move(about)) {}
 
   // The last values in the runs of a track.
   struct Known {
@@ -111,6 +111,7 @@ class Recorder {
   };
 
   void choose(const std::vector<std::string>& globs, std::vector<bool>& matched);
+  void add_places();
   Result<void, base::Problem> begin_file();
   Result<void, base::Problem> add_own_channels();
   Result<void, base::Problem> write_first_values(const tape::Run& first);
@@ -133,17 +134,22 @@ class Recorder {
 
   std::shared_ptr<recording::McapWriter> writer_;
   std::string prefix_;  // topic prefix
-  const vars::Store& store_;
+  const vars::Store* store_;
+  std::unique_ptr<vars::Store> own_store_;  // once it has grown beyond the borrowed one
   tape::Follower follower_;
   About about_;
-  std::vector<bool> wanted_;
-  std::vector<bool> copied_;  // variables with the same bytes in memory and in the file
+  std::vector<std::string> globs_;
+  struct Place {
+    bool wanted = false;
+    bool copied = false;        // it has the same bytes in memory and in the file
+    std::uint16_t channel = 0;  // 0: none yet
+  };
+  std::vector<Place> places_;  // by variable
   struct Missing {
     std::vector<std::string> too_large;
     std::vector<std::string> appeared;
   };
   Missing missing_;
-  std::vector<std::uint16_t> channels_;  // channels of variables; 0: none yet
   std::map<std::string, std::uint16_t> schemas_;
   std::uint16_t runs_channel_ = 0;
   std::uint16_t clock_channel_ = 0;

@@ -155,7 +155,7 @@ ModuleLibrary::Uses uses_of(const config::ModuleFacts& facts) {
   for (const schema::Variable& variable : facts.schema->variables) {
     const auto access = facts.file.access.find(variable.name_hash());
     if (access != facts.file.access.end() && (access->second.reads || access->second.writes)) {
-      uses.emplace(variable.name_hash(), variable.type_hash);
+      uses[variable.name_hash()] = {variable.type_hash, access->second.reads, access->second.writes};
     }
   }
   return uses;

@@ -38,7 +38,7 @@ void Exchanges::begin_version(std::uint32_t module) {
   if (context_.track_of(module) != nullptr && !digest.empty()) {
     const std::string file = std::filesystem::absolute(library.file()).string();
     library.set_number(context_.parts.tape->versions().add_first(module, digest, file));
-    context_.set_version(module, library);
+    context_.set_on_track(module, library);
   }
   rt::copy_text(record(module).digests[1], digest);
   record(module).version.store(digest.empty() ? 0 : 1);

@@ -19,6 +19,32 @@ constexpr const char* kRunsNoMore = "the version that runs has faulted or was st
 
 }  // namespace
 
+void ExchangeContext::offer_to_track(std::uint32_t module, const ModuleLibrary& version) const {
+  if (track_of(module) == nullptr) {
+    return;
+  }
+  std::vector<tape::VariableUse> uses;
+  for (const auto& [name, use] : version.uses()) {
+    if (const vars::DirectoryEntry* const entry = parts.store.find(name); entry != nullptr) {
+      uses.push_back({static_cast<std::uint32_t>(entry - parts.store.directory().data()), use.reads, use.writes});
+    }
+  }
+  for (const std::uint32_t variable : parts.tape->offer(module, uses)) {
+    parts.console.warning("{} is too large for the tape of module {} and is not recorded until the node starts again",
+                          parts.store.schema().variables[parts.store.directory()[variable].schema_index].name,
+                          parts.config.modules[module].name);
+  }
+  track_of(module)->set_other_version(version.number());
+}
+
+void ExchangeContext::set_on_track(std::uint32_t module, const ModuleLibrary& version) const {
+  if (tape::Track* const track = track_of(module); track != nullptr) {
+    offer_to_track(module, version);
+    track->take_offered();
+    track->set_version(version.number());
+  }
+}
+
 bool ModuleExchange::is_open() const noexcept {
   return step_ >= Step::Waiting && step_ != Step::Over &&
          (step_ != Step::Watched || exchange_->step() != scheduler::Exchange::Step::Done);
@@ -232,7 +258,7 @@ void ModuleExchange::replace_closed() {
   }
   context_.parts.engine.replace_closed(module_, {other_.functions().run, other_.functions().condition});
   std::swap(running(), other_);
-  context_.set_version(module_, running());
+  context_.set_on_track(module_, running());
   set_version(scheduler::VersionState::Settled);
   answer(CommandResult::Done, "is stopped, and begins with this version at `indurop start`");
   if (faulted) {

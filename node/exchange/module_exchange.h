@@ -56,12 +56,10 @@ struct ExchangeContext {
   [[nodiscard]] tape::Track* track_of(std::uint32_t module) const noexcept {
     return parts.tape == nullptr ? nullptr : parts.tape->of(module);
   }
+  // The version may follow: its runs get its number, and the track the variables that it uses.
+  void offer_to_track(std::uint32_t module, const ModuleLibrary& version) const;
   // The module does not run, and its next run is one of this version.
-  void set_version(std::uint32_t module, const ModuleLibrary& version) const noexcept {
-    if (tape::Track* const track = track_of(module); track != nullptr) {
-      track->set_version(version.number());
-    }
-  }
+  void set_on_track(std::uint32_t module, const ModuleLibrary& version) const;
 };
 
 class ModuleExchange {

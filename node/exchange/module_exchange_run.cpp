@@ -76,9 +76,7 @@ void ModuleExchange::watch(std::uint64_t tick) {
   deadline_ =
       context_.parts.store.now() + kNoGapFound + 2 * period + std::chrono::nanoseconds(ahead * run.basic_period_ns);
   step_ = Step::Waiting;
-  if (tape::Track* const track = context_.track_of(module_); track != nullptr) {
-    track->set_other_version(other_.number());
-  }
+  context_.offer_to_track(module_, other_);
   if (!context_.parts.engine.watch(module_, *exchange_)) {
     abort("the version that runs has faulted or was stopped meanwhile");
   }
@@ -231,7 +229,7 @@ void ModuleExchange::return_closed() {
   }
   context_.parts.engine.replace_closed(module_, {other_.functions().run, other_.functions().condition});
   std::swap(running(), other_);
-  context_.set_version(module_, running());
+  context_.set_on_track(module_, running());
   exchanged_ = false;
   other_is_unsound_ = true;
   record().state.store(ModuleState::Running);

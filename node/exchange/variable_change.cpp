@@ -50,8 +50,8 @@ VariableChange VariableChange::of(const vars::Store& store, const ModuleLibrary:
 
 VariableChange VariableChange::back_to(vars::Store& store, const ModuleLibrary::Uses& uses) {
   std::vector<schema::Variable> declared;
-  for (const auto& [name, type] : uses) {
-    if (auto variable = store.growth().declared(name, type); variable) {
+  for (const auto& [name, use] : uses) {
+    if (auto variable = store.growth().declared(name, use.type); variable) {
       declared.push_back(*std::move(variable));
     }
   }

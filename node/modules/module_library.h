@@ -52,8 +52,13 @@ class ModuleLibrary {
   // Leaves it loaded for as long as the process lives: a run of it ended in the middle.
   void abandon() noexcept;
 
-  // The shared variables that its code reads or writes, with their types: hashes of both.
-  using Uses = std::map<std::uint64_t, std::uint64_t>;
+  // The shared variables that its code reads or writes, by the hash of their name.
+  struct Use {
+    std::uint64_t type = 0;  // hash
+    bool reads = false;
+    bool writes = false;
+  };
+  using Uses = std::map<std::uint64_t, Use>;
   void set_uses(Uses uses) { uses_ = std::move(uses); }
   [[nodiscard]] const Uses& uses() const noexcept { return uses_; }
 

@@ -50,11 +50,14 @@ Result<TapeIndex> index_tape(std::span<const std::byte> memory) {
   TapeIndex index;
   const std::uint64_t tracks = index.tracks_offset = head.tracks_offset;
   const std::uint64_t count = head.track_count;
+  index.variables_offset = head.variables_offset;
+  const std::uint64_t entries = std::uint64_t{head.variable_count} + kLaterVariables;
   const std::uint64_t versions = index.versions_offset = head.versions_offset;
   index.start_versions = head.start_versions;
   const std::uint64_t places = std::uint64_t{index.start_versions} + kLaterVersions;
   const auto leads_inside = [&](const TapeVariable& v) { return fits(v.first_offset, v.size, memory.size()); };
-  if (!copy_table(memory, head.variables_offset, head.variable_count, index.variables) ||
+  if (!fits(index.variables_offset, entries * sizeof(TapeVariable), memory.size()) ||
+      !copy_table(memory, index.variables_offset, head.variable_count, index.variables) ||
       !std::all_of(index.variables.begin(), index.variables.end(), leads_inside) ||
       !fits(tracks, count * sizeof(TapeTrack), memory.size()) || tracks % alignof(TapeTrack) != 0 ||
       !fits(versions, places * sizeof(TapeVersion), memory.size())) {

@@ -23,7 +23,8 @@ struct TapeIndex {
     std::uint32_t only_read = 0;       // the first `only_read` of `items`
     std::vector<std::uint32_t> items;  // indices of variables
   };
-  std::vector<TapeVariable> variables;
+  std::vector<TapeVariable> variables;  // of the start
+  std::uint64_t variables_offset = 0;   // kLaterVariables more follow
   std::uint64_t tracks_offset = 0;
   std::uint64_t versions_offset = 0;
   std::uint32_t start_versions = 0;

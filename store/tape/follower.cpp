@@ -19,6 +19,7 @@ Result<Follower> Follower::open(const std::string& node, bool from_start) {
   }
   Follower follower(std::move(file).value(), std::move(index).value());
   follower.find_tracks(from_start);
+  follower.take_later_variables();
   return follower;
 }
 
@@ -34,6 +35,23 @@ void Follower::find_tracks(bool from_start) {
   }
 }
 
+// The entries were written before the number was; the memory is checked as in index_tape().
+void Follower::take_later_variables() {
+  const std::uint32_t later = std::min(header().later_variables.load(std::memory_order_acquire), kLaterVariables);
+  const std::size_t known = index_.variables.size();
+  if (known == header_variables_ + later && shown_later_ == shows_later_) {
+    return;
+  }
+  const auto* const all = reinterpret_cast<const TapeVariable*>(file_.data() + index_.variables_offset);
+  if (known < header_variables_ + later) {
+    index_.variables.insert(index_.variables.end(), all + known, all + header_variables_ + later);
+  }
+  shown_later_ = shows_later_;
+  for (TrackReader& track : tracks_) {
+    track.set_variables(index_.variables, shows_later_ ? index_.variables.size() : header_variables_);
+  }
+}
+
 // The header of a store that was truncated is no longer valid; its tape may still be intact.
 bool Follower::is_of(const vars::Store& store) const noexcept {
   const auto directory = store.directory();
@@ -46,6 +64,9 @@ bool Follower::is_of(const vars::Store& store) const noexcept {
 }
 
 std::span<const std::uint8_t> Follower::first_value(std::uint32_t variable) const noexcept {
+  if (variable >= header_variables_) {
+    return {};
+  }
   const TapeVariable& known = index_.variables[variable];
   return {reinterpret_cast<const std::uint8_t*>(file_.data() + known.first_offset), known.size};
 }

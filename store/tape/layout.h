@@ -66,7 +66,9 @@ constexpr std::uint64_t words_of(std::uint64_t bytes) noexcept {
   return (bytes + sizeof(std::uint64_t) - 1) / sizeof(std::uint64_t);
 }
 
-// Entry i belongs to entry i of the store's directory.
+// Entry i belongs to entry i of the store's directory. Those of variables that appear while the node runs follow those
+// of the start, in kLaterVariables more places; they have no first value.
+inline constexpr std::uint32_t kLaterVariables = 1024;
 struct TapeVariable {
   std::uint64_t name_hash;
   std::uint64_t first_offset;  // of its first value, from the start of the tape
@@ -121,9 +123,9 @@ struct TapeHeader {
   std::uint64_t variables_offset;
   std::uint64_t tracks_offset;
   std::uint64_t versions_offset;
-  std::uint32_t start_versions;  // places for versions of the start: one for each module
-  std::uint32_t reserved;
-  std::atomic<std::uint64_t> order;  // number of runs started so far
+  std::uint32_t start_versions;                // places for versions of the start: one for each module
+  std::atomic<std::uint32_t> later_variables;  // number of them; stored after their entries
+  std::atomic<std::uint64_t> order;            // number of runs started so far
 };
 
 }  // namespace indurop::tape

@@ -38,7 +38,7 @@ std::vector<std::uint32_t> items_of(const TrackPlan& track) {
 
 Layout lay_out(std::span<const vars::DirectoryEntry> directory, const TapePlan& plan, std::size_t modules) {
   Layout layout;
-  layout.tracks = up(layout.variables + directory.size() * sizeof(TapeVariable));
+  layout.tracks = up(layout.variables + (directory.size() + kLaterVariables) * sizeof(TapeVariable));
   layout.versions = up(layout.tracks + plan.tracks.size() * sizeof(TapeTrack));
   layout.total = up(layout.versions + (modules + kLaterVersions) * sizeof(TapeVersion));
   for (const vars::DirectoryEntry& entry : directory) {
@@ -113,6 +113,30 @@ Result<std::unique_ptr<Tape>> Tape::create(const std::string& node, const vars::
     return published.error();
   }
   return tape;
+}
+
+std::vector<std::uint32_t> Tape::offer(std::uint32_t module, std::span<const VariableUse> uses) {
+  Track* const track = of(module);
+  auto& header = *reinterpret_cast<TapeHeader*>(file_.data());
+  auto* const variables = reinterpret_cast<TapeVariable*>(file_.data() + header.variables_offset);
+  const auto directory = store_.directory();
+  const std::size_t known = std::min<std::size_t>(directory.size(), header.variable_count + kLaterVariables);
+  for (std::size_t i = header.variable_count + header.later_variables.load(); i < known; ++i) {
+    variables[i] = {directory[i].name_hash, 0, directory[i].value_size, 1};
+  }
+  header.later_variables.store(static_cast<std::uint32_t>(known) - header.variable_count, std::memory_order_release);
+  std::vector<VariableUse> later(uses.begin(), uses.end());
+  std::erase_if(later, [&](const VariableUse& use) { return use.variable < header.variable_count; });
+  std::vector<std::uint32_t> left_out;
+  std::erase_if(later, [&](const VariableUse& use) {
+    const bool fits = use.variable < known && track->has_room_for(directory[use.variable].value_size);
+    if (!fits) {
+      left_out.push_back(use.variable);
+    }
+    return !fits;
+  });
+  track->offer(later, store_);
+  return left_out;
 }
 
 void Tape::soon(std::uint32_t module) const noexcept {

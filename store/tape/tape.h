@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,10 @@ class Tape {
   void soon(std::uint32_t module) const noexcept;
   // Track::end() of a taped module. Real-time safe.
   bool end(std::uint32_t module, const RunTail& times, std::uint32_t flags) noexcept;
+  // The next version of a module's code uses these variables; those that appeared after the start are on the module's
+  // track from its next Track::note_exchange() on. Returns those whose values are too long for it. Not real-time safe.
+  std::vector<std::uint32_t> offer(std::uint32_t module, std::span<const VariableUse> uses);
+
   // The versions of modules' code, which runs on the tracks carry. Not real-time safe.
   [[nodiscard]] VersionTable& versions() noexcept { return versions_; }
 

@@ -15,6 +15,7 @@ namespace {
 
 using rt::kRelaxed;
 constexpr std::uint64_t kAhead = 64;  // words claimed in advance, so that not each entry has to claim
+constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
 constexpr std::uint32_t kOnce = kRestarted | kExchanged;  // marks of one run
 constexpr std::uint64_t kStepsPerClockReading =
     16;  // variables checked and words written in the time of a clock reading
@@ -56,18 +57,93 @@ Track::Track(std::byte* tape, TapeTrack& shared, const vars::Store& store, Write
   const auto* const indices = reinterpret_cast<const std::uint32_t*>(tape + shared.items_offset);
   std::uint64_t largest = 0;
   for (std::size_t i = 0; i < std::size_t{reads_end_} + shared.only_written; ++i) {
-    const vars::DirectoryEntry& entry = store.directory()[indices[i]];
-    items_.push_back(
-        {store.entry(entry.name_hash, 0), 0, entry.value_size, indices[i], entry.kind == abi::Kind::Scalar});
-    largest = std::max(largest, words_of(entry.value_size));
+    items_.push_back(item_of(store, indices[i]));
+    largest = std::max(largest, words_of(items_.back().size));
   }
   copy_.resize(largest);
+}
+
+Track::Item Track::item_of(const vars::Store& store, std::uint32_t variable) {
+  const vars::DirectoryEntry& entry = store.directory()[variable];
+  return {store.entry(entry.name_hash, 0), 0, entry.value_size, variable, entry.kind == abi::Kind::Scalar};
+}
+
+bool Track::has_room_for(std::uint32_t bytes) const noexcept {
+  return words_of(bytes) < (mask_ + 1) / kMarks;
+}
+
+void Track::offer(std::span<const VariableUse> uses, const vars::Store& store) {
+  struct Entry {
+    Item item;
+    std::uint32_t from = kNowhere;
+    VariableUse use;
+  };
+  offered_.store(nullptr, std::memory_order_relaxed);
+  std::vector<Entry> all;
+  for (std::uint32_t i = 0; i < items_.size(); ++i) {
+    const Item& known = items_[i];
+    all.push_back({{known.entry, 0, known.size, known.variable, known.scalar},
+                   i,
+                   {known.variable, i < reads_end_, i >= writes_begin_}});
+  }
+  bool more = false;
+  for (const VariableUse& use : uses) {
+    auto found =
+        std::find_if(all.begin(), all.end(), [&](const Entry& one) { return one.use.variable == use.variable; });
+    if (found == all.end()) {
+      all.push_back({item_of(store, use.variable), kNowhere, {use.variable, false, false}});
+      found = all.end() - 1;
+    }
+    more = more || (use.reads && !found->use.reads) || (use.writes && !found->use.writes);
+    found->use.reads = found->use.reads || use.reads;
+    found->use.writes = found->use.writes || use.writes;
+  }
+  if (!more) {
+    return;
+  }
+  const auto is_only_read = [](const Entry& one) { return !one.use.writes; };
+  const auto is_read = [](const Entry& one) { return one.use.reads; };
+  const auto both = std::stable_partition(all.begin(), all.end(), is_only_read);
+  const auto only_written = std::stable_partition(both, all.end(), is_read);
+  offer_ = std::make_unique<Offer>();
+  offer_->writes_begin = static_cast<std::uint32_t>(both - all.begin());
+  offer_->reads_end = static_cast<std::uint32_t>(only_written - all.begin());
+  std::uint64_t largest = 0;
+  for (const Entry& one : all) {
+    offer_->items.push_back(one.item);
+    offer_->from.push_back(one.from);
+    largest = std::max(largest, words_of(one.item.size));
+  }
+  offer_->copy.resize(largest);
+  offered_.store(offer_.get(), std::memory_order_release);
+}
+
+// What is new is recorded in the next run, whatever its value is.
+void Track::take_offered() noexcept {
+  Offer* const offer = offered_.exchange(nullptr, std::memory_order_acq_rel);
+  if (offer == nullptr) {
+    return;
+  }
+  for (std::size_t i = 0; i < offer->items.size(); ++i) {
+    Item& item = offer->items[i];
+    if (offer->from[i] != kNowhere) {
+      item.seen = items_[offer->from[i]].seen;
+    } else {
+      item.seen =
+          item.scalar && item.size == sizeof(std::uint64_t) ? ~load_scalar(item.entry, item.size) : ~std::uint64_t{0};
+    }
+  }
+  std::swap(items_, offer->items);
+  std::swap(copy_, offer->copy);
+  reads_end_ = offer->reads_end;
+  writes_begin_ = offer->writes_begin;
 }
 
 void Track::note_exchange() noexcept {
   const std::uint32_t before = marks_.load(std::memory_order_acquire);
   marks_.store(other_.load(std::memory_order_acquire) | kExchanged | (before & kOnce), std::memory_order_release);
   other_.store(before & ~kOnce, std::memory_order_release);
+  take_offered();
 }
 
 void Track::claim(std::uint64_t words) noexcept {

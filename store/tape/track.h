@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,13 @@
 #include "store/vars/store.h"
 
 namespace indurop::tape {
+
+// How a module's code uses a variable, an index into the store's directory.
+struct VariableUse {
+  std::uint32_t variable = 0;
+  bool reads = false;
+  bool writes = false;
+};
 
 class alignas(kLine) Track {
  public:
@@ -33,6 +41,13 @@ class alignas(kLine) Track {
   // The other version of the module's code runs from the run on that begins next, and this one becomes the other one.
   // On the thread that runs it.
   void note_exchange() noexcept;
+  // Returns true if a value of this size leaves enough of the track to other ones. Any thread.
+  [[nodiscard]] bool has_room_for(std::uint32_t bytes) const noexcept;
+  // These variables are on the track, in addition, from the next note_exchange() or take_offered() on. One normal
+  // thread, while no exchange is watched for. Not real-time safe.
+  void offer(std::span<const VariableUse> uses, const vars::Store& store);
+  // Takes them. On the thread that runs the module, or while it does not run. Real-time safe.
+  void take_offered() noexcept;
   // Records the values at the start of a run. Returns true if that was much: it took longer than a clock reading.
   // Real-time safe: no lock, no allocation, no system call.
   bool begin() noexcept;
@@ -62,6 +77,16 @@ class alignas(kLine) Track {
     bool scalar = false;
   };
 
+  // All variables of the track, with those that are offered.
+  struct Offer {
+    std::vector<Item> items;
+    std::vector<std::uint32_t> from;  // where each is now; kNowhere: it is new
+    std::vector<std::uint64_t> copy;
+    std::uint32_t reads_end = 0;
+    std::uint32_t writes_begin = 0;
+  };
+
+  static Item item_of(const vars::Store& store, std::uint32_t variable);
   static constexpr std::uint32_t mark_of(std::uint32_t version) noexcept { return version << kVersionShift; }
   bool record_changed(Item& item, EntryKind kind, bool anyway) noexcept;
   void record_entry(Item& item, EntryKind kind) noexcept;
@@ -98,6 +123,8 @@ class alignas(kLine) Track {
 
   std::vector<std::uint64_t> copy_;      // of one value
   std::atomic<std::uint32_t> other_{0};  // mark of the version that does not run
+  std::atomic<Offer*> offered_{nullptr};
+  std::unique_ptr<Offer> offer_;
 };
 
 }  // namespace indurop::tape

@@ -23,7 +23,8 @@ TrackReader::TrackReader(const Source& source, std::span<const TapeVariable> var
       words_(source.words),
       mask_(source.size - 1),
       module_(source.module),
-      variables_(variables) {
+      variables_(variables),
+      shown_(variables.size()) {
   const std::uint64_t head = shared_->head.load(std::memory_order_acquire);
   at_ = from_start ? oldest(head) : head;
 }
@@ -58,7 +59,7 @@ void TrackReader::point_to(const std::vector<std::pair<EntryHead, std::size_t>>&
     const auto* const at = reinterpret_cast<const std::uint8_t*>(run.words.data() + place);
     if (entry.kind == EntryKind::Answer) {
       run.answers.push_back({static_cast<std::int64_t>(run.words[place]), {at + sizeof(std::uint64_t), entry.which}});
-    } else {
+    } else if (entry.which < shown_) {
       run.values.push_back({entry.kind, entry.which, {at, variables_[entry.which].size}});
     }
   }
@@ -115,9 +116,9 @@ TrackReader::Reading TrackReader::read_run(std::uint64_t head, Run& run, std::ui
   return Reading::Corrupt;
 }
 
-bool TrackReader::next(Run& run) {
+bool TrackReader::next(Run& run, std::uint64_t end) {
   for (;;) {
-    const std::uint64_t head = shared_->head.load(std::memory_order_acquire);
+    const std::uint64_t head = end;
     if (at_ >= head) {
       return false;
     }

@@ -51,7 +51,15 @@ class TrackReader {
   TrackReader(const Source& source, std::span<const TapeVariable> variables, bool from_start);
 
   // Reads the next run; `run` is reused. Returns false if there is none yet.
-  bool next(Run& run);
+  bool next(Run& run) { return next(run, written()); }
+  // The same of the words before `end`, as written() returned it.
+  bool next(Run& run, std::uint64_t end);
+  [[nodiscard]] std::uint64_t written() const noexcept { return shared_->head.load(std::memory_order_acquire); }
+  // There are more variables now; values of those from `shown` on are left out.
+  void set_variables(std::span<const TapeVariable> variables, std::size_t shown) noexcept {
+    variables_ = variables;
+    shown_ = shown;
+  }
   [[nodiscard]] std::uint32_t module() const noexcept { return module_; }
   // Runs that were written so far.
   [[nodiscard]] std::uint64_t runs() const noexcept { return shared_->runs.load(std::memory_order_relaxed); }
@@ -72,6 +80,7 @@ class TrackReader {
   std::uint64_t mask_;
   std::uint32_t module_;
   std::span<const TapeVariable> variables_;
+  std::size_t shown_;
   std::uint64_t at_ = 0;
   std::uint64_t next_number_ = 0;
   std::uint64_t lost_ = 0;

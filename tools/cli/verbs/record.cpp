@@ -125,7 +125,8 @@ bool report_missing(Context& context, const Recorded& node, const recorder::Reco
         fmt::format("{} is too large for the tape and was not recorded; start the node with a larger --tape", name));
   }
   for (const std::string& name : recorder.appeared()) {
-    context.out.note(fmt::format("{} appeared while the node runs and is recorded after its next start", name));
+    context.out.note(
+        fmt::format("{} is not in the recording: it appeared while the node runs, and no module uses it yet", name));
   }
   for (const auto& [module, runs] : recorder.counts().lost) {
     context.out.error(
