@@ -59,7 +59,6 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   void run_homing() noexcept;
   void run_motion(Signals& signals) noexcept;
   bool run_job(Signals& signals) noexcept;
-  void stop_for_job() noexcept;
   void begin_next(bool more) noexcept;
   void take_plan() noexcept;
   void note_lines(const Plan& plan) noexcept;

@@ -8,7 +8,7 @@ namespace indurop::robot {
 
 void Group::run_state(Signals& signals) noexcept {
   if (!robot_.job.step_outputs(robot_.period, signals, job_motions_)) {
-    stop_for_job();
+    stops_.stop_for_job();
   }
   reloading_.step(service_.is_serving(Service::JobReload), queue_.empty() && !power_.enabling(), signals);
   torques_.weigh_pushing();
@@ -81,19 +81,13 @@ void Group::run_motion(Signals& signals) noexcept {
   }
 }
 
-void Group::stop_for_job() noexcept {
-  const Fault fault = robot_.job.fault();
-  finish_service(Fault{fault.code, fault.axis});
-  stop_for(fault);
-}
-
 // Returns false if the job has paused.
 bool Group::run_job(Signals& signals) noexcept {
   JobRunner& job = robot_.job;
   const int before = plans_.ahead().count();
   job.step(robot_.period, signals, job_motions_);
   if (job.state() == JobState::Failed) {
-    stop_for_job();
+    stops_.stop_for_job();
   } else if (job.state() == JobState::Paused) {
     resuming_.pause();
     return false;

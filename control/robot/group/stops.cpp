@@ -85,6 +85,12 @@ void Stops::stop_for(const Fault& fault) noexcept {
   robot_.states.stop_to_error(fault.code, fault.axis);
 }
 
+void Stops::stop_for_job() noexcept {
+  const Fault fault = robot_.job.fault();
+  group_.finish_service(Fault{fault.code, fault.axis});
+  stop_for(fault);
+}
+
 void Stops::stop_for_mode(ErrorCode code) noexcept {
   GroupStates& states = robot_.states;
   const double hardness = robot_.parts.settings.emergency_factor;

@@ -21,6 +21,8 @@ class Stops {
   void trip(ErrorCode code, int axis, double hardness, const char* why) noexcept;
   void fall_off(ErrorCode code, int axis) noexcept;
   void stop_for(const Fault& fault) noexcept;
+  // The same for the fault of the job, which has failed.
+  void stop_for_job() noexcept;
   // Comes to rest on the path; power stays on (stop category 2). The person who releases the enabling switch may be in
   // danger.
   void stop_for_mode(ErrorCode code) noexcept;

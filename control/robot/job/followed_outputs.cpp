@@ -31,8 +31,8 @@ StepValues::Flaw FollowedOutputs::run(const Step& step, int source, Signals& sig
   return {};
 }
 
-StepValues::Flaw FollowedOutputs::step(bool live, const StepValues& values, Signals& signals,
-                                       const MotionPort& port, int& source) noexcept {
+StepValues::Flaw FollowedOutputs::step(bool live, const StepValues& values, Signals& signals, const MotionPort& port,
+                                       int& source) noexcept {
   StepValues::Flaw flaw;
   for (Followed& one : all_) {
     double value = 0;
