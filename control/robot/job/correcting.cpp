@@ -48,7 +48,7 @@ StepValues::Flaw Correcting::check(const Step& motion) const noexcept {
   if (!on()) {
     return {};
   }
-  if (motion.move == Move::Joint || motion.move == Move::Free) {
+  if (is_of_joints(motion.move)) {
     return {"CORRECT shifts lines, circles and splines; end it with CORRECT OFF before another motion"};
   }
   if (motion.index < 0) {

@@ -55,8 +55,7 @@ StepValues::Flaw Riding::prepare(const Step& motion, JobPlaces& places, MotionPo
     return {};
   }
   const bool wanted = is_in_frame(motion.index);
-  const bool of_joints = motion.move == Move::Joint || motion.move == Move::Free;
-  if (wanted && (of_joints || (motion.move == Move::Circle && !is_in_frame(motion.mid)))) {
+  if (wanted && (is_of_joints(motion.move) || (motion.move == Move::Circle && !is_in_frame(motion.mid)))) {
     return {"lines, circles and splines follow a frame that moves, with all their points in it"};
   }
   const MotionExtras* const extras = book_.extras_of(motion);

@@ -84,7 +84,7 @@ StepValues::Flaw StepMotions::make(const Step& step, const MotionSettings& setti
     own.apply(with);
   }
   const bool until = extras != nullptr && extras->until >= 0;
-  const bool of_joints = step.move == Move::Joint || step.move == Move::Free;
+  const bool of_joints = is_of_joints(step.move);
   command.speed = own.speed;
   command.tool_speed = of_joints ? 0 : own.tool_speed;
   command.zone = until || step.move == Move::Free ? 0 : own.zone;

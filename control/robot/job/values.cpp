@@ -69,7 +69,7 @@ void ValueReader::set_on_path(Step wanted) {
     wanted.value /= 1000;
     if (!(wanted.value >= 0)) {
       line_.error(number, "a distance is from 0 mm");
-    } else if (motion->move == Move::Joint || motion->move == Move::Free) {
+    } else if (is_of_joints(motion->move)) {
       line_.error(number, "the way of a MOVJ or MOVE FREE has no distance; give a time, BEFORE 0.2s");
     }
   } else if (line_.duration(wanted.timeout)) {

@@ -24,6 +24,10 @@ namespace indurop::robot {
 // Splines have one command for each of their points. Free: around obstacles, on a path of the joints that is searched
 // for.
 enum class Move : std::uint8_t { Joint, Line, Circle, Spline, Free };
+// Whether the path is one of the joints: the tool has none that could be measured, shifted or waved.
+constexpr bool is_of_joints(Move move) noexcept {
+  return move == Move::Joint || move == Move::Free;
+}
 
 // The target of a motion: joint angles or a pose of the tool.
 struct Target {

@@ -89,7 +89,7 @@ double PlanningDesk::seconds_of(const PlanRequest& request) const noexcept {
   if (request.chain != nullptr) {
     return std::min(request.chain->at_speed(), kMostSeconds);
   }
-  if (command.move == Move::Joint || command.move == Move::Free || !(command.speed > 0)) {
+  if (is_of_joints(command.move) || !(command.speed > 0)) {
     return 0;
   }
   const Arm& arm = places_.arm();
