@@ -108,6 +108,9 @@ void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& 
 // Variables that appear while the node runs are recorded from the first run on that uses them.
 void Recorder::add_places() {
   const auto count = static_cast<std::uint32_t>(follower_.variables().size());
+  if (count <= places_.size()) {
+    return;
+  }
   if (store_->directory().size() < count) {
     auto again = vars::Store::attach(about_.node, vars::Mode::ReadOnly);
     if (!again || again->directory().size() < count || !follower_.is_of(*again)) {
@@ -289,9 +292,7 @@ Result<bool, Problem> Recorder::take_run(std::size_t track, std::int64_t until_n
       held.reset();
       return false;
     }
-    if (follower_.variables().size() > places_.size()) {
-      add_places();
-    }
+    add_places();
   }
   if (held->run.tail.end_ns >= until_ns) {
     return false;

@@ -53,16 +53,24 @@ recording::TextMap last_metadata(const recording::McapReader& reader, const std:
   return found;
 }
 
-std::string Source::text(const std::string& key) const {
-  const auto found = about.find(key);
-  return found == about.end() ? std::string() : found->second;
+std::string text_in(const recording::TextMap& texts, const std::string& key) {
+  const auto found = texts.find(key);
+  return found == texts.end() ? std::string() : found->second;
 }
 
-std::int64_t Source::number(const std::string& key) const {
-  const std::string digits = text(key);
+std::int64_t number_in(const recording::TextMap& texts, const std::string& key) {
+  const std::string digits = text_in(texts, key);
   std::int64_t number = 0;
   std::from_chars(digits.data(), digits.data() + digits.size(), number);
   return number;
+}
+
+std::string Source::text(const std::string& key) const {
+  return text_in(about, key);
+}
+
+std::int64_t Source::number(const std::string& key) const {
+  return number_in(about, key);
 }
 
 Sources find_sources(const recording::McapReader& reader) {

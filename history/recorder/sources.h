@@ -25,6 +25,10 @@ inline constexpr const char* kPartText = "part";  // key in the node's metadata:
 // In the result of a replay: variables, with the number of runs that left a value different from the recorded one.
 inline constexpr const char* kDifferingMetadata = "indurop.differing";
 
+// A value of such texts; empty or 0 if it is missing.
+std::string text_in(const recording::TextMap& texts, const std::string& key);
+std::int64_t number_in(const recording::TextMap& texts, const std::string& key);
+
 struct Source {
   std::string prefix;                // topic prefix: "sensor/"; empty: the file is of one node
   recording::TextMap about;          // description of the node (recorder.h)

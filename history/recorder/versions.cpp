@@ -2,25 +2,11 @@
 #include "history/recorder/versions.h"
 
 #include <algorithm>
-#include <charconv>
 #include <tuple>
 
+#include "history/recorder/sources.h"
+
 namespace indurop::recorder {
-namespace {
-
-std::string text_in(const recording::TextMap& map, const std::string& key) {
-  const auto found = map.find(key);
-  return found == map.end() ? std::string() : found->second;
-}
-
-std::uint64_t number_in(const recording::TextMap& map, const std::string& key) {
-  const std::string digits = text_in(map, key);
-  std::uint64_t number = 0;
-  std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  return number;
-}
-
-}  // namespace
 
 recording::TextMap to_text_map(const RecordedVersion& version) {
   return {{"module", version.module},
@@ -43,8 +29,8 @@ std::vector<RecordedVersion> versions_in(const recording::McapReader& reader, co
     RecordedVersion& one = all.emplace_back();
     one.module = text_in(map, "module");
     one.number = static_cast<std::uint32_t>(number_in(map, "number"));
-    one.first_run = number_in(map, "first_run");
-    one.first_tick = number_in(map, "first_tick");
+    one.first_run = static_cast<std::uint64_t>(number_in(map, "first_run"));
+    one.first_tick = static_cast<std::uint64_t>(number_in(map, "first_tick"));
     one.exchanged = text_in(map, "exchanged") != "no";
     one.digest = text_in(map, "sha256");
     one.file = text_in(map, "file");

@@ -117,15 +117,11 @@ TrackReader::Reading TrackReader::read_run(std::uint64_t head, Run& run, std::ui
 }
 
 bool TrackReader::next(Run& run, std::uint64_t end) {
-  for (;;) {
-    const std::uint64_t head = end;
-    if (at_ >= head) {
-      return false;
-    }
+  while (at_ < end) {
     std::uint64_t length = 0;
-    if (read_run(head, run, length) != Reading::Whole) {
-      const std::uint64_t again = oldest(head);
-      at_ = again > at_ ? again : head;
+    if (read_run(end, run, length) != Reading::Whole) {
+      const std::uint64_t again = oldest(end);
+      at_ = again > at_ ? again : end;
       continue;
     }
     at_ += length;
@@ -134,6 +130,7 @@ bool TrackReader::next(Run& run, std::uint64_t end) {
     next_number_ = run.tail.number + 1;
     return true;
   }
+  return false;
 }
 
 }  // namespace indurop::tape
