@@ -278,10 +278,13 @@ Ending Replay::run() {
     return {recorded.error().code, "the recording cannot be replayed"};
   }
   modules_.choose(*recorded);
+  const std::size_t variables = store_.directory().size();
   if (!versions_.load(*recorded, modules_)) {
     return {kFailed, "the recording cannot be replayed"};
   }
-  recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, store_);  // with their variables
+  if (store_.directory().size() > variables) {
+    recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, store_);  // with those of the versions
+  }
   if (!recorded || !begin(*recorded)) {
     return {kFailed, "the recording cannot be replayed"};
   }
