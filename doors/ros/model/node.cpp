@@ -10,7 +10,8 @@ Result<Node, base::Problem> Node::open(const std::string& name, bool write) {
   if (irp_open(name.c_str(), write ? IRP_WRITE : IRP_READ, &node) != IRP_OK) {
     return base::Problem{irp_error()};
   }
-  return Node(node);
+  Node opened(node);
+  return opened.runs() ? Result<Node, base::Problem>(std::move(opened)) : base::Problem{"the node has ended"};
 }
 
 std::vector<std::string> Node::variables() const {

@@ -20,7 +20,8 @@ namespace indurop::ros {
 
 class Node {
  public:
-  // An empty name: that of $INDUROP_NODE, "local" or the only one. Errors: there is no such node, no right to it.
+  // An empty name: that of $INDUROP_NODE, "local" or the only one. Errors: there is no such node, it has ended, no
+  // right to it.
   static Result<Node, base::Problem> open(const std::string& name, bool write);
 
   [[nodiscard]] irp_node* handle() const noexcept { return handle_.get(); }

@@ -60,9 +60,6 @@ Result<void, base::Problem> Ros1Door::begin() {
   if (!node) {
     return std::move(node).error();
   }
-  if (!node->runs()) {
-    return base::Problem{"the node has ended"};
-  }
   auto session = std::make_unique<Session>(std::move(*node));
   if (!choice_.joints.empty()) {
     auto arm = ServedArm::find(session->node, choice_, ros_, log_);

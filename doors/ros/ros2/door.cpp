@@ -62,9 +62,6 @@ Result<void, base::Problem> Ros2Door::begin() {
   if (!node) {
     return std::move(node).error();
   }
-  if (!node->runs()) {
-    return base::Problem{"the node has ended"};
-  }
   auto arm = ServedArm::find(*node, choice_, ros_, log_);
   if (!arm) {
     return std::move(arm).error();
