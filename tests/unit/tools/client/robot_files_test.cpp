@@ -48,11 +48,11 @@ TEST_F(Robot_files, All_of_them_are_read_and_all_errors_reported_at_once) {
   config_.modules[0].properties = {{"urdf", "arm.urdf"}, {"jobs", "points.job  pick.job gone.job"}};
   write("arm.urdf", "<robot name=\"arm\"/>");
   write("points.job", "POINT A = JOINT 1 2 3\n");
-  write("pick.job", "MOVJ A\nMOVE B\n");
+  write("pick.job", "MOVJ A\nTRAVEL B\n");
   const auto found = errors();
   EXPECT_THAT(found, testing::Contains(HasSubstr("arm.urdf:1:")));
   EXPECT_THAT(found, testing::Contains(HasSubstr("points.job:1:")));
-  EXPECT_THAT(found, testing::Contains(HasSubstr("pick.job:2:1: error: unknown statement 'MOVE'")));
+  EXPECT_THAT(found, testing::Contains(HasSubstr("pick.job:2:1: error: unknown statement 'TRAVEL'")));
   EXPECT_THAT(found, testing::Contains(HasSubstr("gone.job:1:1: error: this job cannot be read")));
 }
 
