@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <sys/utsname.h>
 #include <unistd.h>
@@ -77,7 +78,20 @@ Finding cores(const fs::path& root) {
               : ""};
 }
 
-Finding fifo() {
+/// Podman and docker leave these marks. That of docker also stays in images from which machines are made, on which,
+/// unlike in a container, the threads of the kernel are seen.
+bool in_container(const fs::path& root) {
+  std::error_code error;
+  return fs::exists(root / "run/.containerenv", error) ||
+         (fs::exists(root / ".dockerenv", error) && first_line(root / "proc/2/comm") != "kthreadd");
+}
+
+Finding container(const fs::path& root) {
+  return {"container", Grade::Ok, in_container(root) ? "yes: its options of podman or docker run give it rights" : "no",
+          ""};
+}
+
+Finding fifo(bool contained) {
   constexpr int kTickPriority = 90;
   const int before = rt::fifo_priority();
   const bool allowed = rt::set_fifo(kTickPriority).ok();
@@ -86,13 +100,13 @@ Finding fifo() {
     return {"fifo", Grade::Ok, fmt::format("SCHED_FIFO {} allowed", kTickPriority), ""};
   }
   return {"fifo", Grade::Fail, "SCHED_FIFO refused",
-          "modules run, but other programs can delay them: put '@realtime - rtprio 95' and '@realtime - memlock "
-          "unlimited' into "
-          "/etc/security/limits.d/realtime.conf, add the user to group realtime and log in again; in a container: "
-          "--cap-add SYS_NICE"};
+          contained ? "modules run, but other programs can delay them: run the container with --ulimit rtprio=99"
+                    : "modules run, but other programs can delay them: put '@realtime - rtprio 95' and '@realtime - "
+                      "memlock unlimited' into /etc/security/limits.d/realtime.conf, add the user to group realtime "
+                      "and log in again"};
 }
 
-Finding locked_memory() {
+Finding locked_memory(bool contained) {
   rlimit limit{};
   getrlimit(RLIMIT_MEMLOCK, &limit);
   const std::string text = limit.rlim_cur == RLIM_INFINITY ? "unlimited" : human_bytes(limit.rlim_cur);
@@ -104,12 +118,18 @@ Finding locked_memory() {
     return {"locked-memory", Grade::Ok, "mlockall works, limit " + text, ""};
   }
   return {"locked-memory", Grade::Warn, "limit " + text,
-          "pages may be fetched in the middle of a run; put '@realtime - memlock unlimited' into "
-          "/etc/security/limits.d/realtime.conf"};
+          contained ? "pages may be fetched in the middle of a run; run the container with --ulimit memlock=-1"
+                    : "pages may be fetched in the middle of a run; put '@realtime - memlock unlimited' into "
+                      "/etc/security/limits.d/realtime.conf"};
 }
 
-Finding idle_states(const fs::path& root) {
+Finding idle_states(const fs::path& root, bool contained) {
   const fs::path file = root / "dev/cpu_dma_latency";
+  if (contained && access(file.c_str(), R_OK | W_OK) != 0) {
+    return {"idle-states", Grade::Warn, "no right to /dev/cpu_dma_latency of the machine",
+            "waking up from deep idle states costs up to 100 us; run the container with --device /dev/cpu_dma_latency "
+            "and as a user who may write to it"};
+  }
   if (access(file.c_str(), F_OK) != 0) {
     return {"idle-states", Grade::Ok, "no /dev/cpu_dma_latency: nothing to hold short", ""};
   }
@@ -177,7 +197,7 @@ Finding virtual_machine(const fs::path& root) {
   return {"virtual-machine", Grade::Ok, "no", ""};
 }
 
-Finding shared_memory() {
+Finding shared_memory(bool contained) {
   struct statvfs info {};
   if (statvfs(vars::kShmDirectory, &info) != 0) {
     return {"shared-memory", Grade::Fail, "no /dev/shm", "mount a tmpfs there: sudo mount -t tmpfs tmpfs /dev/shm"};
@@ -191,19 +211,33 @@ Finding shared_memory() {
   }
   if (free_bytes < kComfortable) {
     return {"shared-memory", free_bytes < kNeeded ? Grade::Fail : Grade::Warn, text,
-            "remove what is left over (indurop clean --all), or enlarge it: sudo mount -o remount,size=256M /dev/shm "
-            "(containers: --shm-size)"};
+            contained ? "remove what is left over (indurop clean --all), or run the container with --shm-size 256m"
+                      : "remove what is left over (indurop clean --all), or enlarge it: sudo mount -o "
+                        "remount,size=256M /dev/shm"};
   }
   return {"shared-memory", Grade::Ok, text, ""};
 }
 
-Finding state_folder() {
+/// Whether a folder is in another file system than the root.
+bool is_mounted(const fs::path& folder, const fs::path& root) {
+  struct stat own {};
+  struct stat top {};
+  return stat(folder.c_str(), &own) == 0 && stat(root.c_str(), &top) == 0 && own.st_dev != top.st_dev;
+}
+
+Finding state_folder(const fs::path& root, bool contained) {
   constexpr const char* kNode = "local";
   const fs::path folder = vars::state_directory(kNode).parent_path();
   fs::path there = folder;
   std::error_code error;
   while (!there.empty() && !fs::exists(there, error) && there != there.parent_path()) {
     there = there.parent_path();
+  }
+  if (contained && !is_mounted(there, root)) {
+    return {
+        "state-folder", Grade::Warn, fmt::format("{} ends with the container", folder.string()),
+        fmt::format("deployments and retained variables would be lost with it; run the container with -v indurop:{}",
+                    folder.string())};
   }
   if (access(there.c_str(), W_OK | X_OK) == 0) {
     return {"state-folder", Grade::Ok, folder.string(), ""};
@@ -215,10 +249,21 @@ Finding state_folder() {
 }  // namespace
 
 std::vector<Finding> examine_machine(const fs::path& root) {
-  return {kernel(),      clock_source(root), timer_resolution(),    cores(root),
-          fifo(),        locked_memory(),    idle_states(root),     throttling(),
-          swap(root),    governor(root),     virtual_machine(root), shared_memory(),
-          state_folder()};
+  const bool contained = in_container(root);
+  return {kernel(),
+          clock_source(root),
+          timer_resolution(),
+          cores(root),
+          container(root),
+          fifo(contained),
+          locked_memory(contained),
+          idle_states(root, contained),
+          throttling(),
+          swap(root),
+          governor(root),
+          virtual_machine(root),
+          shared_memory(contained),
+          state_folder(root, contained)};
 }
 
 Finding grade_latency(std::int64_t p50_ns, std::int64_t p99_ns, std::int64_t max_ns, std::uint64_t wakeups,

@@ -63,6 +63,23 @@ TEST_F(Doctor, Virtual_machine_is_recognised) {
   EXPECT_EQ(finding("virtual-machine").grade, Grade::Ok);
 }
 
+TEST_F(Doctor, Advice_in_a_container_names_its_options) {
+  put("dev/cpu_dma_latency", "");
+  EXPECT_TRUE(finding("container").found.starts_with("no")) << finding("container").found;
+  EXPECT_EQ(finding("idle-states").grade, Grade::Ok);
+  fs::remove(root_ / "dev/cpu_dma_latency");
+  put("run/.containerenv", "");
+  EXPECT_TRUE(finding("container").found.starts_with("yes")) << finding("container").found;
+  EXPECT_NE(finding("idle-states").advice.find("--device /dev/cpu_dma_latency"), std::string::npos);
+}
+
+TEST_F(Doctor, Machine_made_from_an_image_of_docker_is_no_container) {
+  put(".dockerenv", "");
+  EXPECT_TRUE(finding("container").found.starts_with("yes")) << finding("container").found;
+  put("proc/2/comm", "kthreadd\n");
+  EXPECT_TRUE(finding("container").found.starts_with("no")) << finding("container").found;
+}
+
 TEST_F(Doctor, Whatever_is_not_fine_comes_with_advice) {
   for (const Finding& f : examine_machine()) {
     EXPECT_FALSE(f.name.empty());
