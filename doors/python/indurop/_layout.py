@@ -111,7 +111,7 @@ class Layout:
                     raise OutOfRange(f"no field '{name}'; there are {', '.join(known)}")
                 known[name].layout.store(one, data, offset + known[name].offset)
         elif self.base == "text":
-            text = str(value).encode()
+            text = self._encoded(value)
             if len(text) >= self.element_size:
                 raise OutOfRange(f"a text of {len(text)} bytes; at most {self.element_size - 1}")
             data[offset:offset + self.element_size] = text.ljust(self.element_size, b"\0")
@@ -121,8 +121,19 @@ class Layout:
             self._pack("=i", value, data, offset)
         elif self.base == "char":
             self._pack("=c", value.encode("latin-1") if isinstance(value, str) else value, data, offset)
+        elif self.base == "bool" and (isinstance(value, str) or value not in (0, 1)):
+            raise OutOfRange(f"{value!r} is not a bool")  # "false" would be true
         else:
             self._pack("=" + _CODES[self.base], value, data, offset)
+
+    @staticmethod
+    def _encoded(value: Any) -> bytes:
+        if not isinstance(value, str) or "\0" in value:
+            raise OutOfRange(f"{value!r} is not a text without NUL")
+        try:
+            return value.encode()
+        except UnicodeEncodeError as error:
+            raise OutOfRange(f"{value!r} is not a text: {error}") from error
 
     def _pack(self, code: str, value: Any, data: bytearray, offset: int) -> None:
         try:

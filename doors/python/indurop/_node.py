@@ -12,10 +12,17 @@ from indurop import _layout
 from indurop._binding import ffi, lib
 from indurop._by_name import ByName
 from indurop._described import Described
-from indurop._errors import Error, Gone, Timeout
+from indurop._errors import Error, Gone, Invalid, Timeout
 from indurop._library import CHANGED, check, error, text
 
 _ASYNC_POLL_S = 0.001  # between two reads of an asyncio watch
+
+
+def held_ns(seconds: float) -> int:
+    """Of a force, in ns. 0 means until it is released, so what is less than 1 ns is not 0."""
+    if not 0 <= seconds < 9e9:
+        raise Invalid(f"a value is forced for 0 s or more, up to 9e9 s, not for {seconds} s")
+    return max(1, int(seconds * 1e9)) if seconds > 0 else 0
 
 
 @dataclass
@@ -109,8 +116,7 @@ class Variable(Described):
     def force(self, value: Any, seconds: float = 0, reason: str = "") -> None:
         """Holds the value against all writers, for `seconds` or, 0, until it is released."""
         check(
-            lib.irp_force(self._node._handle, self._id, self._packed(value), self.size, int(seconds * 1e9),
-                          reason.encode()))
+            lib.irp_force(self._node._handle, self._id, self._packed(value), self.size, held_ns(seconds), reason.encode()))
 
     def release(self, reason: str = "") -> None:
         check(lib.irp_release(self._node._handle, self._id, reason.encode()))

@@ -11,7 +11,7 @@ from indurop._by_name import ByName
 from indurop._described import Described
 from indurop._errors import Error, Forced, Invalid, NotFound, OutOfRange, Timeout
 from indurop._form import layout_of, text_of, value_of
-from indurop._node import Quality
+from indurop._node import Quality, held_ns
 from indurop._server import Server
 from indurop._subscription import Subscription
 
@@ -76,7 +76,7 @@ class RemoteVariable(Described):
 
     def force(self, value: Any, seconds: float = 0, reason: str = "") -> None:
         """Holds the value against all writers, for `seconds` or, 0, until it is released."""
-        self._change("force", value, reason=reason, **({"for_ns": int(seconds * 1e9)} if seconds != 0 else {}))
+        self._change("force", value, reason=reason, **({"for_ns": held_ns(seconds)} if seconds != 0 else {}))
 
     def release(self, reason: str = "") -> None:
         body = {"names": [self.name], "reason": reason}

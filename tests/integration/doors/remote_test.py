@@ -93,6 +93,8 @@ class Remote(NodeTest):
                                        ("grid", [[1, 2, 3], [4, 5, 128]], indurop.OutOfRange),
                                        ("grid", [[1, 2, 3]], indurop.OutOfRange), ("mode", 3, indurop.OutOfRange),
                                        ("text", "x" * 16, indurop.OutOfRange),
+                                       ("text", "a\0b", indurop.OutOfRange),
+                                       ("places[0].valid", "false", indurop.OutOfRange),
                                        ("places[0].x", 11, indurop.OutOfRange),
                                        ("places[0]", {"z": 1}, indurop.OutOfRange), ("gian", 1, indurop.NotFound)):
                 with self.assertRaises(error, msg=f"{name} = {value}"):
@@ -129,8 +131,13 @@ class Remote(NodeTest):
             self.assertTrue(gain.quality.good)
             with self.assertRaises(indurop.NotFound):
                 gain.release()
-            gain.force(3, seconds=0.05)
-            wait_until("the force times out", lambda: not gain.quality.forced)
+            for seconds in (1e-12, 0.05):  # 0 ns would mean until it is released
+                gain.force(3, seconds=seconds)
+                wait_until("the force times out", lambda: not gain.quality.forced)
+            for seconds in (-1, float("nan"), float("inf"), 1e300):
+                with self.assertRaises(indurop.Invalid):
+                    gain.force(3, seconds=seconds)
+            self.assertFalse(gain.quality.forced)
 
     def test_watching(self):
         with self.remote() as remote:
