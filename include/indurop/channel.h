@@ -42,7 +42,8 @@ int connect(Handle& handle, const char* node = "");
 // `size` must be the part's size. Leading namespaces may be left out where that is unique.
 // Returns the number of bytes, or a negative indurop::Errc after one message per name saying what to do:
 // NotFound (no node, no such variable), OutOfRange (index), InvalidArgument (not a name), TypeMismatch (other size),
-// Timeout. Real-time safe from the second access by the same name on, as long as the node is not replaced.
+// Timeout. Variables that the node has now and did not have before, or with another type, are found. Real-time safe
+// from the second access by the same name on, as long as the node is not replaced and the variable keeps its type.
 std::ptrdiff_t read(Handle& handle, std::string_view name, std::size_t size, void* to);
 // Replaces the part in one commit. Errors as for read(), and Busy (another writer was stopped while writing),
 // PermissionDenied (this user may only read).

@@ -78,11 +78,15 @@ struct Handle::Impl {
   std::optional<runtime::Attachment> own;           // for a node this process is not bound to
   const runtime::Attachment* attachment = nullptr;  // in use; the names below belong to it
   std::map<std::string, Resolved, std::less<>> names;
+  std::uint64_t layout = 0;  // of the store when they were resolved
   std::int64_t next_try_ns = 0;
 
   Status connect();
+  Status open_own();
   // Returns null if there is no node. Reconnects if it was replaced.
   const runtime::Attachment* current();
+  // Forgets the names if the node has other variables since. Returns true if it did.
+  bool follow();
   Resolved& resolve(std::string_view name);
 };
 
@@ -112,16 +116,40 @@ Status Handle::Impl::connect() {
   }
   if (shared != nullptr && shared->node() == node) {
     runtime::Process::get().refresh();
+    own.reset();
     attachment = runtime::hot.attachment.load(std::memory_order_acquire);
+    layout = attachment->store().layout_hash();
     return {};
   }
+  return open_own();
+}
+
+Status Handle::Impl::open_own() {
   auto opened = runtime::Attachment::open(node);
   if (!opened) {
     return opened.error();
   }
+  names.clear();
   own.emplace(std::move(opened).value());
   attachment = &*own;
+  layout = own->store().layout_hash();
   return {};
+}
+
+// The variables of the program keep their places in the attachment that it shares, so it is not replaced.
+bool Handle::Impl::follow() {
+  if (attachment == nullptr) {
+    return false;
+  }
+  if (attachment->store().grown() && !runtime::Process::get().hosted()) {
+    return open_own().ok();
+  }
+  if (attachment->store().layout_hash() == layout) {
+    return false;
+  }
+  names.clear();
+  layout = attachment->store().layout_hash();
+  return true;
 }
 
 const runtime::Attachment* Handle::Impl::current() {
@@ -144,6 +172,7 @@ Resolved& Handle::Impl::resolve(std::string_view name) {
   if (const auto known = names.find(name); known != names.end()) [[likely]] {
     return known->second;
   }
+  follow();
   Resolved& part = names[std::string(name)];
   const auto place = schema::find_place(attachment->store().schema(), name);
   if (!place) {
@@ -184,15 +213,19 @@ namespace {
 
 std::ptrdiff_t access_now(Handle::Impl& impl, std::string_view name, std::size_t size, void* value, detail::Basic basic,
                           bool is_write) {
-  const runtime::Attachment* attachment = impl.current();
-  if (attachment == nullptr) {
+  if (impl.current() == nullptr) {
     return -static_cast<std::ptrdiff_t>(Errc::NotFound);
   }
-  Resolved& part = impl.resolve(name);
+  const auto fits = [size, basic](const Resolved& part) { return part.size == size && is_made_of(part, basic); };
+  Resolved* known = &impl.resolve(name);
+  if ((known->error != Errc::Ok || !fits(*known)) && impl.follow()) {
+    known = &impl.resolve(name);
+  }
+  Resolved& part = *known;
   if (part.error != Errc::Ok) {
     return -static_cast<std::ptrdiff_t>(part.error);
   }
-  if (part.size != size || !is_made_of(part, basic)) {
+  if (!fits(part)) {
     if (!std::exchange(part.complained, true)) {
       const std::string is = fmt::format("{}{}", schema::name_of(part.base), part.is_array ? " array" : "");
       runtime::Process::get().report(fmt::format("channel to node '{}': {} is a {} of {} bytes, the program gives {}{}",
@@ -202,8 +235,9 @@ std::ptrdiff_t access_now(Handle::Impl& impl, std::string_view name, std::size_t
     return -static_cast<std::ptrdiff_t>(Errc::TypeMismatch);
   }
   auto* bytes = static_cast<std::uint8_t*>(value);
-  const Status status = is_write ? attachment->store().write(part.entry, part.offset, {bytes, size})
-                                 : attachment->store().read(part.entry, part.offset, {bytes, size});
+  indurop::vars::Store& store = impl.attachment->store();
+  const Status status = is_write ? store.write(part.entry, part.offset, {bytes, size})
+                                 : store.read(part.entry, part.offset, {bytes, size});
   return status ? static_cast<std::ptrdiff_t>(size) : -static_cast<std::ptrdiff_t>(status.error().code);
 }
 
@@ -214,7 +248,8 @@ std::ptrdiff_t detail::access(Handle& handle, std::string_view name, std::size_t
                               bool is_write) {
   const auto is_read = [is_write](std::int64_t code) { return !is_write && code >= 0; };
   return static_cast<std::ptrdiff_t>(runtime::answer(value, size, is_read, [&]() -> std::int64_t {
-    return access_now(handle.impl(), name, size, value, basic, is_write);
+    const std::ptrdiff_t done = access_now(handle.impl(), name, size, value, basic, is_write);
+    return done < 0 && handle.impl().follow() ? access_now(handle.impl(), name, size, value, basic, is_write) : done;
   }));
 }
 

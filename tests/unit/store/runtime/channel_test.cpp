@@ -5,6 +5,10 @@
 #include <indurop/indurop.h>
 #include <unistd.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <indurop/generated.h>
 #include "hosted.h"
 
@@ -70,6 +74,52 @@ TEST(Channel, Connects_to_another_node_and_follows_its_new_block) {
   node.restart(schema, {{"m", {}, 0, {}, ""}});
   EXPECT_EQ(read<std::uint32_t>(sut, "tick").value(), 100U) << "carried over";
   EXPECT_EQ(read<double>(sut, "joints[1].y").error().code, Errc::NotFound);
+}
+
+// From now on the node has a variable of this type.
+void bring(TestNode& node, const std::string& name, indurop::schema::Base base) {
+  indurop::schema::Variable made;
+  made.name = name;
+  made.type.base = base;
+  made.type.element_size = base == indurop::schema::Base::Double ? 8 : 4;
+  made.type.align = made.type.element_size;
+  made.kind = indurop::abi::Kind::Scalar;
+  made.type_hash = indurop::schema::hash_of(made.type);
+  const std::vector all{made};
+  ASSERT_TRUE(node.store().reserve(all).ok());
+  auto next = node.store().prepare(all);
+  ASSERT_TRUE(next.ok());
+  node.store().announce(std::move(next).value());
+}
+
+void expect_to_follow(TestNode& node, channel::Handle& sut) {
+  ASSERT_EQ(connect(sut, node.name().c_str()), 0);
+  EXPECT_EQ(read<std::uint32_t>(sut, "tick").value(), 7U);
+  EXPECT_EQ(read<double>(sut, "nt::late").error().code, Errc::NotFound);
+  bring(node, "nt::late", indurop::schema::Base::Float);
+  EXPECT_TRUE(write(sut, "nt::late", 2.5F));
+  EXPECT_EQ(read<float>(sut, "nt::late").value(), 2.5F);
+  EXPECT_EQ(read<double>(sut, "nt::late").error().code, Errc::TypeMismatch);
+  bring(node, "nt::late", indurop::schema::Base::Double);
+  EXPECT_EQ(read<float>(sut, "nt::late").error().code, Errc::TypeMismatch);
+  EXPECT_TRUE(write(sut, "nt::late", 4.5));
+  EXPECT_EQ(read<double>(sut, "nt::late").value(), 4.5);
+  bring(node, "nt::late", indurop::schema::Base::Float);
+  EXPECT_EQ(read<float>(sut, "nt::late").value(), 2.5F);
+  EXPECT_EQ(read<std::uint32_t>(sut, "tick").value(), 7U);
+}
+
+TEST(Channel, Follows_variables_that_appear_or_get_another_type) {
+  TestNode node;
+  channel::Handle sut;
+  expect_to_follow(node, sut);
+}
+
+TEST(Channel, Of_a_module_follows_variables_that_appear_or_get_another_type) {
+  TestNode node;
+  const Hosted hosted(node);
+  channel::Handle sut;
+  expect_to_follow(node, sut);
 }
 
 TEST(Channel, Without_a_node_is_an_error_not_a_wait) {
