@@ -31,6 +31,10 @@ struct OrderState {
   robot::ErrorCode error = robot::ErrorCode::Ok;
 };
 
+// The robot task does not execute commands that are there when it starts, and answers them in the same way.
+inline constexpr const char* kNotExecuted =
+    "another command replaced it, or the robot task has just started; repeat it";
+
 class Commands {
  public:
   // Errors: the robot has no such variables, or too few tables for its axes.

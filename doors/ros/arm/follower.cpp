@@ -79,10 +79,9 @@ void Follower::watch(Time now) {
       end_with(state.state == robot::CommandState::Error && state.error != robot::ErrorCode::State
                    ? GoalCode::InvalidGoal
                    : GoalCode::PathTolerance,
-               fmt::format(
-                   "axis {}: {}{}{}", order.axis,
-                   state.error == robot::ErrorCode::Ok ? "another command replaced it" : robot::to_string(state.error),
-                   obstacle.empty() ? "" : "; ", obstacle));
+               fmt::format("axis {}: {}{}{}", order.axis,
+                           state.error == robot::ErrorCode::Ok ? kNotExecuted : robot::to_string(state.error),
+                           obstacle.empty() ? "" : "; ", obstacle));
       return;
     }
     done += state.state == robot::CommandState::Done ? 1 : 0;

@@ -136,6 +136,10 @@ void Motions::set_points(const RosGoal& asked, Time now) {
 }
 
 std::string Motions::request(robot::Service service) {
+  arm_->read();
+  if (arm_->size() == 0) {
+    return "the robot task has not started yet; repeat it";
+  }
   std::vector<Order> orders = {{0, static_cast<std::int32_t>(service)}};
   std::string wrong = commands_->send(orders, {}, "service of a ROS client");
   service_ = orders.front();
@@ -148,7 +152,7 @@ std::optional<std::string> Motions::service_end() const {
     case robot::CommandState::Done:
       return std::string();
     case robot::CommandState::Aborted:
-      return std::string("another command replaced it");
+      return std::string(kNotExecuted);
     case robot::CommandState::Error:
       return std::string(robot::to_string(now.error));
     default:
