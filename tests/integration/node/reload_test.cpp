@@ -80,6 +80,15 @@ TEST_F(Reload, A_version_that_overruns_is_replaced) {
   EXPECT_EQ(module("counter").faults.load(), 0U);
 }
 
+// As by a variable of a shell script that is not set.
+TEST_F(Reload, A_guard_or_a_shadow_that_is_nothing_is_refused) {
+  start_counting();
+  EXPECT_EQ(reload({"counter", built("other"), "--guard", ""}).code, 2);
+  EXPECT_EQ(reload({"counter", built("other"), "--shadow", "0s"}).code, 2);
+  EXPECT_EQ(module("counter").version.load(), 1U);
+  expect_all_counted();
+}
+
 TEST_F(Reload, A_guard_that_does_not_hold_returns_the_previous_version) {
   start_counting();
   const Outcome done = reload({"counter", built("other"), "--health", "20s", "--guard", "walked > 0"});

@@ -43,7 +43,7 @@ Result<AcceptedDifferences::Rule, base::Problem> AcceptedDifferences::parse_rule
     break;
   }
   return base::Problem{fmt::format(
-      "--accept: '{}' is no rule; write a variable or a glob, == < or <=, and the largest difference: \"O* == 0, joint "
+      "'{}' is no rule; write a variable or a glob, == < or <=, and the largest difference: \"O* == 0, joint "
       "< 0.01\"",
       text)};
 }

@@ -39,6 +39,7 @@ struct ReloadOptions {
   deploy::LinkSettings link;
   bool back = false;
   std::int64_t shadow_ns = 0;  // 0: no shadow
+  bool has_shadow = false;     // it was given
   AcceptedDifferences accepted;
   std::optional<ShadowReport> shadow;
   std::int64_t timeout_ns = 30'000'000'000;
@@ -234,6 +235,10 @@ int reload_other_schedule(Context& context, const ReloadOptions& options) {
 }
 
 int reload(Context& context, ReloadOptions& options) {
+  if (options.has_shadow && options.shadow_ns == 0) {
+    context.out.error("--shadow 0s compares nothing; give a time such as 5s, or leave it out");
+    return kUsage;
+  }
   if (!options.plant.empty()) {
     return reload_plant(context, options);
   }
@@ -262,9 +267,10 @@ Action declare_reload(base::Options& app, Context& context) {
   app.add("--config", "FILE", options->config,
           "Change to the schedule of this configuration at the beginning of a macro period")
       .completes(base::Completion::File);
-  const base::Option shadow = add_time_option(app, "--shadow", options->shadow_ns,
-                                              "First compare it with the running version: repeat its runs for this "
-                                              "time, and exchange it only if nothing differs");
+  base::Option shadow = add_time_option(app, "--shadow", options->shadow_ns,
+                                        "First compare it with the running version: repeat its runs for this "
+                                        "time, and exchange it only if nothing differs");
+  shadow.implies(options->has_shadow);
   const auto accept = [&accepted = options->accepted](const std::string& text) {
     auto rules = AcceptedDifferences::parse(text);
     if (!rules) {
@@ -278,7 +284,10 @@ Action declare_reload(base::Options& app, Context& context) {
   add_time_option(app, "--health", options->request.health_ns,
                   "How long the previous version stands by (default 5 s; 0s: not at all)");
   app.add("--guard", "CONDITION", options->request.guard,
-          "Condition that must hold in that time, else the previous version runs again: \"O0 == 0\"");
+          "Condition that must hold in that time, else the previous version runs again: \"O0 == 0\"")
+      .check([](const std::string& text) {
+        return std::string(text.empty() ? "it is empty, so nothing would be guarded; leave it out for that" : "");
+      });
   add_time_option(app, "--timeout", options->timeout_ns, "How long to wait for the exchange (default 30 s)");
   app.add("--board", "NAME", options->board, "Exchange it on this board, through its agent; FILE is sent there")
       .completes(base::Completion::Node);
