@@ -40,6 +40,9 @@ std::vector<std::string> pattern_list(const std::string& text) {
   for (std::string each; std::getline(in, each, ',');) {
     patterns.emplace_back(base::trimmed(each));
   }
+  if (patterns.empty()) {
+    patterns.emplace_back();  // it is no pattern; no patterns at all would be no limit
+  }
   return patterns;
 }
 

@@ -193,6 +193,8 @@ def test_the_command_line_makes_the_list(setting):
     assert sign_in(server, "anna", "long enough") is None
     assert sign_in(server, "anna", "yet another")
     indurop("role", "ben", "look")
+    assert json.loads(indurop("list", "-o", "json")[0])["users"][1]["boards"] == ["press*", "table"]
+    indurop("role", "ben", "look", "--no-limits")
     assert json.loads(indurop("list", "-o", "json")[0])["users"][1]["boards"] == []
     indurop("remove", "anna")
     assert sign_in(server, "anna", "yet another") is None

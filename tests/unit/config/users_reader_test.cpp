@@ -71,6 +71,9 @@ TEST(UsersReader, Refuses_all_mistakes_at_once_and_repeats_no_secret) {
        user_problems("<users><user name=\"t\" role=\"look\" password=\"hunter2\"/></users>")) {
     EXPECT_EQ(line.find("hunter2"), std::string::npos);
   }
+  EXPECT_THAT(user_problems("<users><user name=\"t\" role=\"operate\" boards=\"\" variables=\",\"/></users>"),
+              ElementsAre(HasSubstr("boards is empty"), HasSubstr("variables: '' is no pattern")))
+      << "else the user would have no limits";
   EXPECT_THAT(user_problems("<plant name=\"x\"/>"), ElementsAre(HasSubstr("the root element is <plant>")));
 }
 

@@ -34,6 +34,7 @@ struct UsersRequest {
   std::vector<std::string> boards;
   std::vector<std::string> variables;
   bool no_password = false;
+  bool no_limits = false;
   std::string plant;
   deploy::LinkSettings link;
 };
@@ -176,12 +177,28 @@ int add(Context& context, const UsersRequest& request) {
   return code;
 }
 
+// A limit that is not named stays.
+void set_limit(std::vector<std::string>& limit, const std::vector<std::string>& wanted, bool removed) {
+  if (removed || !wanted.empty()) {
+    limit = wanted;
+  }
+}
+
+std::string limit_text(const char* of, const std::vector<std::string>& limit) {
+  return limit.empty() ? "" : fmt::format(", limited to the {} {}", of, fmt::join(limit, ", "));
+}
+
 int set_role(Context& context, const UsersRequest& request) {
   return change_user(context, request, [&](auto& /*users*/, auto at) {
+    if (request.no_limits && !(request.boards.empty() && request.variables.empty())) {
+      context.out.error("--no-limits and a limit contradict each other");
+      return kUsage;
+    }
     at->role = role_of(request.role);
-    at->boards = request.boards;
-    at->variables = request.variables;
-    context.out.line(fmt::format("{} has the role {} now", request.name, request.role));
+    set_limit(at->boards, request.boards, request.no_limits);
+    set_limit(at->variables, request.variables, request.no_limits);
+    context.out.line(fmt::format("{} has the role {} now{}{}", request.name, request.role,
+                                 limit_text("boards", at->boards), limit_text("variables", at->variables)));
     return kOk;
   });
 }
@@ -287,11 +304,12 @@ Action declare_users(base::Options& app, Context& context) {
     return made;
   };
   const auto add_limits = [&request](base::Options& made) {
-    add_pattern_option(made, "--boards", request->boards,
-                       "Boards that the user may change: names and patterns, separated by commas (default: all)");
     add_pattern_option(
-        made, "--variables", request->variables,
-        "Variables that the user may change; a user with this limit cannot change modules or locks (default: all)");
+        made, "--boards", request->boards,
+        "Boards that the user may change: names and patterns, separated by commas (default for a new user: all)");
+    add_pattern_option(made, "--variables", request->variables,
+                       "Variables that the user may change; a user with this limit cannot change modules or locks "
+                       "(default for a new user: all)");
   };
   add_format_option(verb("list", "Show the users and their roles", &list, false), context,
                     {Format::Table, Format::Json, Format::Csv});
@@ -302,6 +320,7 @@ Action declare_users(base::Options& app, Context& context) {
   base::Options& changing = verb("role", "Change the role and limits of a user", &set_role, true);
   changing.add("role", "ROLE", request->role, "What the user may do").choices(role_words()).required();
   add_limits(changing);
+  changing.flag("--no-limits", request->no_limits, "Remove the limits that the user has; without it they stay");
   verb("password", "Change the password of a user", &set_password, true);
   verb("token", "Create a token for a user, such as a program, and show it once", &make_token, true);
   verb("remove", "Remove a user", &remove, true);

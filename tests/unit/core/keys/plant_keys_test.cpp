@@ -243,6 +243,8 @@ TEST(Patterns, Are_names_with_stars) {
   EXPECT_THAT(pattern_list("a::*, b.c"), ElementsAre("a::*", "b.c"));
   EXPECT_EQ(pattern_problem("knu::Robot::j[0-9]?"), "");
   EXPECT_NE(pattern_problem(""), "");
+  EXPECT_THAT(pattern_list(""), ElementsAre("")) << "that is a mistake, and no list without limits";
+  EXPECT_THAT(pattern_list(" "), ElementsAre(""));
   EXPECT_NE(pattern_problem("a<b"), "");
   EXPECT_NE(pattern_problem("a b"), "");
 }
