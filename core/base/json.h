@@ -99,4 +99,10 @@ bool read(const Json& object, std::string_view key, std::uint64_t& to);
 bool read(const Json& object, std::string_view key, bool& to);
 bool read(const Json& object, std::string_view key, std::vector<std::string>& to);
 
+// Reads a member that may be missing. Returns false if it is there and of another type.
+template <class T>
+bool read_if_given(const Json& object, std::string_view key, T& to) {
+  return object.find(key) == nullptr || read(object, key, to);
+}
+
 }  // namespace indurop::base

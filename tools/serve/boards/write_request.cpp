@@ -4,22 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <string_view>
-
 #include "core/base/json.h"
 
 namespace indurop::serve {
-
-namespace {
-
-// A member that may be left out. Returns false if it is there and of another type: a force whose "lease" is not
-// understood would never end.
-template <class T>
-bool read_if_given(const base::Json& object, std::string_view key, T& to) {
-  return object.find(key) == nullptr || base::read(object, key, to);
-}
-
-}  // namespace
 
 Result<WriteRequest, std::string> read_write_request(const std::string& body) {
   const auto json = base::Json::parse(body);
@@ -27,13 +14,14 @@ Result<WriteRequest, std::string> read_write_request(const std::string& body) {
     return std::string("the body is no JSON object");
   }
   WriteRequest request;
-  if (!read_if_given(*json, "reason", request.reason)) {
+  if (!base::read_if_given(*json, "reason", request.reason)) {
     return std::string("reason is a text");
   }
-  if (!read_if_given(*json, "names", request.names)) {
+  if (!base::read_if_given(*json, "names", request.names)) {
     return std::string("names is a list of texts");
   }
-  if (!read_if_given(*json, "all", request.all) || !read_if_given(*json, "lease", request.lease)) {
+  // A force whose "lease" is not understood would never end.
+  if (!base::read_if_given(*json, "all", request.all) || !base::read_if_given(*json, "lease", request.lease)) {
     return std::string("all and lease are true or false");
   }
   if (request.lease && json->find("for_ns") != nullptr) {

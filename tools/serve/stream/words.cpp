@@ -8,13 +8,13 @@ namespace {
 
 // Returns what is wrong with the members of a subscription, else an empty text.
 std::string read_subscription(const base::Json& json, ClientWord& word) {
-  if (json.find("board") != nullptr && !base::read(json, "board", word.board)) {
+  if (!base::read_if_given(json, "board", word.board)) {
     return "board is a name";
   }
   if (!base::read(json, "names", word.names) || word.names.empty() || word.names.size() > kMostNames) {
     return fmt::format("names is a list of 1 to {} names or globs", kMostNames);
   }
-  if (json.find("binary") != nullptr && !base::read(json, "binary", word.binary)) {
+  if (!base::read_if_given(json, "binary", word.binary)) {
     return "binary is true or false";
   }
   if (const base::Json* const rate = json.find("rate_hz")) {

@@ -74,6 +74,16 @@ TEST(Json, Reading_what_is_not_there_gives_nothing) {
   EXPECT_EQ(sut->text(), std::nullopt);
 }
 
+TEST(Json, A_member_that_may_be_missing_must_have_its_type) {
+  const Json sut{{"yes", true}, {"text", "true"}};
+  bool value = false;
+  EXPECT_TRUE(read_if_given(sut, "none", value));
+  EXPECT_FALSE(read_if_given(sut, "text", value));
+  EXPECT_FALSE(value) << "unchanged";
+  EXPECT_TRUE(read_if_given(sut, "yes", value));
+  EXPECT_TRUE(value);
+}
+
 TEST(Json, What_is_no_json_is_refused) {
   for (const char* text : {"", "{", "[1,]", "{\"a\"}", "1 2", "nul", "\"\xff\""}) {
     EXPECT_FALSE(Json::parse(text)) << text;
