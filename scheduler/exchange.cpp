@@ -17,13 +17,47 @@ bool Exchange::is_still_in(std::uint64_t gap) const noexcept {
   return entries_.load(std::memory_order_relaxed) == gap;
 }
 
-// What was copied while a run began is part of another gap, whatever order it is seen in.
-bool Exchange::is_due(std::uint64_t tick) const noexcept {
+void Exchange::note_versions() noexcept {
+  for (Version& version : settings_.versions) {
+    version.copied = version.of->load(std::memory_order_acquire);
+  }
+}
+
+bool Exchange::is_as_copied() const noexcept {
+  return std::all_of(settings_.versions.begin(), settings_.versions.end(), [](const Version& version) {
+    return version.of->load(std::memory_order_acquire) == version.copied;
+  });
+}
+
+bool Exchange::is_offered(std::uint64_t gap) const noexcept {
+  const std::uint64_t offered = offered_gap_.load(std::memory_order_acquire);
+  return offered == gap + 1 || offered == kTaken;
+}
+
+bool Exchange::withdraw(std::uint64_t gap) noexcept {
+  std::uint64_t offered = gap + 1;
+  return !is_as_copied() && offered_gap_.compare_exchange_strong(offered, 0, std::memory_order_acq_rel);
+}
+
+// What was copied while a run began is part of another gap, whatever order it is seen in. While the offer is taken, the
+// normal thread changes nothing.
+bool Exchange::takes_offer() noexcept {
+  std::uint64_t offered = entries_.load(std::memory_order_relaxed) + 1;
+  if (!offered_gap_.compare_exchange_strong(offered, kTaken, std::memory_order_acq_rel)) {
+    return false;
+  }
+  if (!is_as_copied()) {
+    offered_gap_.store(0, std::memory_order_release);
+    return false;
+  }
+  return true;
+}
+
+bool Exchange::is_due(std::uint64_t tick) noexcept {
   return tick >= settings_.earliest_tick &&
-         (!settings_.offered ||
-          offered_gap_.load(std::memory_order_acquire) == entries_.load(std::memory_order_relaxed) + 1) &&
          std::all_of(settings_.zeros.begin(), settings_.zeros.end(),
-                     [](const auto* word) { return word->load(std::memory_order_acquire) == 0; });
+                     [](const auto* word) { return word->load(std::memory_order_acquire) == 0; }) &&
+         (!settings_.offered || takes_offer());
 }
 
 bool Exchange::leave_new(Step to, Reason reason) noexcept {

@@ -37,6 +37,11 @@ class Exchange {
     std::atomic<std::uint64_t>* to = nullptr;
     std::uint64_t value = 0;
   };
+  // A word that changes whenever something is written that a normal thread has copied.
+  struct Version {
+    const std::atomic<std::uint64_t>* of = nullptr;
+    std::uint64_t copied = 0;  // its value before the copying
+  };
   enum class Step : std::uint32_t {
     Waiting,    // the old version runs until the exchange is due
     Done,       // the new version runs, and the old one is ready to
@@ -54,6 +59,7 @@ class Exchange {
     std::uint64_t earliest_tick = 0;  // the exchange is not before this tick
     std::vector<Word> words;          // stored in this order, before the first run of the new version
     std::vector<const std::atomic<std::int64_t>*> zeros;  // words that must be 0 for that
+    std::vector<Version> versions;                        // of what a normal thread copies, besides what is kept
   };
 
   explicit Exchange(Settings settings) : settings_(std::move(settings)) {}
@@ -62,9 +68,14 @@ class Exchange {
   [[nodiscard]] std::optional<std::uint64_t> gap() const noexcept;
   // Returns true if no run has begun since: what was read meanwhile is what the module keeps in that gap.
   [[nodiscard]] bool is_still_in(std::uint64_t gap) const noexcept;
-  // Everything was copied in this gap: the next run is one of the new version, if it is the one that ends the gap.
+  // To be called before the copying in a gap, if nothing is offered: what is written from now on is noticed.
+  void note_versions() noexcept;
+  // Everything was copied in this gap: the next run is one of the new version, if it is the one that ends the gap and
+  // nothing of it was written meanwhile.
   void offer(std::uint64_t gap) noexcept { offered_gap_.store(gap + 1, std::memory_order_release); }
-  [[nodiscard]] bool is_offered(std::uint64_t gap) const noexcept { return offered_gap_.load() == gap + 1; }
+  [[nodiscard]] bool is_offered(std::uint64_t gap) const noexcept;
+  // Takes the offer back if something was written that was copied. Returns true if no run takes it any more.
+  bool withdraw(std::uint64_t gap) noexcept;
 
   // Any thread; real-time safe. Lets the old version run again, from the next run on. Returns false if the new version
   // does not run, or the old one cannot continue without a normal thread.
@@ -89,7 +100,10 @@ class Exchange {
   void after_run(const RunTimes& times) noexcept;
 
  private:
-  [[nodiscard]] bool is_due(std::uint64_t tick) const noexcept;
+  static constexpr std::uint64_t kTaken = UINT64_MAX;  // by a run that begins
+  [[nodiscard]] bool is_due(std::uint64_t tick) noexcept;
+  [[nodiscard]] bool takes_offer() noexcept;
+  [[nodiscard]] bool is_as_copied() const noexcept;
   void copy_back() const noexcept;
   void exchange(Task& task, std::uint64_t tick) noexcept;
   bool leave_new(Step to, Reason reason) noexcept;
@@ -98,7 +112,7 @@ class Exchange {
   std::atomic<Step> step_{Step::Waiting};
   std::atomic<Reason> reason_{Reason::None};
   std::atomic<std::uint64_t> entries_{0};      // odd while a run is in progress
-  std::atomic<std::uint64_t> offered_gap_{0};  // number + 1; 0: none
+  std::atomic<std::uint64_t> offered_gap_{0};  // number + 1; 0: none; kTaken
   std::atomic<std::uint64_t> first_tick_{0};
   std::atomic<std::int64_t> copying_ns_{0};
   std::atomic<std::int64_t> response_ns_{0};

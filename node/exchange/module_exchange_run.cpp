@@ -87,9 +87,15 @@ void ModuleExchange::wait_for_exchange() {
     note_exchanged();
   } else if (record().state.load() != ModuleState::Running) {
     abort("the version that runs has faulted or was stopped meanwhile");
+  } else if (const std::string forced = variables_.forced(context_.parts.store); !forced.empty()) {
+    abort(fmt::format("variable {}, whose type changes, was forced meanwhile: release it (indurop unforce)", forced));
   } else if (context_.parts.store.now() > deadline_) {
-    abort(carry_.between_runs ? "its runs leave too little time between them to copy what it keeps"
-                              : "it was not entered, so there was no moment between two runs");
+    abort(
+        !carry_.between_runs ? "it was not entered, so there was no moment between two runs"
+        : variables_.changes_types()
+            ? "its runs leave too little time between them to copy what it keeps, or a variable whose type changes is "
+              "written all the time"
+            : "its runs leave too little time between them to copy what it keeps");
   } else if (carry_.between_runs && context_.parts.engine.has_passed(module_)) {
     offer_copy();
   }
@@ -98,9 +104,10 @@ void ModuleExchange::wait_for_exchange() {
 void ModuleExchange::offer_copy() {
   for (int i = 0; i < kCopiesInOneGo; ++i) {
     const auto gap = exchange_->gap();
-    if (!gap || exchange_->is_offered(*gap)) {
+    if (!gap || (exchange_->is_offered(*gap) && !exchange_->withdraw(*gap))) {
       continue;
     }
+    exchange_->note_versions();
     const bool keeps = report_.plan.with_state;
     const std::size_t bytes = keeps ? running().memory().save(saved_) : 0;
     const auto* const begin = reinterpret_cast<const std::uint8_t*>(saved_.data());

@@ -17,6 +17,18 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
+// Of a scalar, it is its value.
+const std::atomic<std::uint64_t>* version_of(void* entry, abi::Kind kind) noexcept {
+  return kind == abi::Kind::Ring ? &static_cast<abi::RingHeader*>(entry)->seq
+                                 : static_cast<std::atomic<std::uint64_t>*>(entry);
+}
+
+bool is_forced(const vars::Store& store, std::uint64_t name_hash) {
+  const std::vector<vars::Force> forces = store.forces();
+  return std::any_of(forces.begin(), forces.end(),
+                     [name_hash](const vars::Force& force) { return force.variable->name_hash == name_hash; });
+}
+
 Bytes initial_value(const schema::Variable& variable) {
   return variable.initial.empty() ? Bytes(variable.type.size()) : variable.initial;
 }
@@ -126,6 +138,7 @@ bool VariableChange::prepare(vars::Store& store, scheduler::Exchange::Settings& 
       return false;
     }
     settings.zeros.push_back(&abi::forces_offset_of(place, one.from.kind));
+    settings.versions.push_back({version_of(place, one.from.kind)});
   }
   return true;
 }
@@ -148,6 +161,12 @@ std::string VariableChange::carry(vars::Store& store, bool lossy) const {
     }
   }
   return "";
+}
+
+std::string VariableChange::forced(const vars::Store& store) const {
+  const auto found = std::find_if(changed_.begin(), changed_.end(),
+                                  [&store](const Changed& one) { return is_forced(store, one.from.name_hash()); });
+  return found != changed_.end() ? found->from.name : "";
 }
 
 void VariableChange::follow(vars::Store& store) {
@@ -192,10 +211,7 @@ std::string objection(const VariableChange::Changed& one, const TypeUsers& users
       }
     }
   }
-  const std::vector<vars::Force> forces = users.store.forces();
-  const bool forced = std::any_of(forces.begin(), forces.end(),
-                                  [&](const vars::Force& force) { return force.variable->name_hash == hash; });
-  return forced ? "it is forced: release it (indurop unforce)" : "";
+  return is_forced(users.store, hash) ? "it is forced: release it (indurop unforce)" : "";
 }
 
 }  // namespace

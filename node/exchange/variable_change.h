@@ -57,6 +57,8 @@ class VariableChange {
   // Copies what can be carried to the new places. Returns why not; empty: it is done. `lossy`: values that do not fit
   // are left out.
   [[nodiscard]] std::string carry(vars::Store& store, bool lossy) const;
+  // Name of a variable that is forced, so that its type cannot change; empty: there is none.
+  [[nodiscard]] std::string forced(const vars::Store& store) const;
   // The words were stored.
   void follow(vars::Store& store);
   // All of this while no version runs. Returns why not.

@@ -3,15 +3,21 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
 #include <thread>
+#include <vector>
 
+#include "core/rt/clock.h"
 #include "core/schema/leaf.h"
 #include "core/schema/schema.h"
 #include "reload_fixture.h"
+#include "store/vars/shm_file.h"
 #include "store/vars/store.h"
 
 namespace indurop::test {
@@ -189,6 +195,54 @@ TEST_F(OtherTypes, Are_refused_for_forced_variables) {
   EXPECT_CONTAINS(reload({"layout", layout("wide")}).err, "it is forced");
   ASSERT_EQ(indurop({"unforce", "nt_layout::axis.x", "--node", node()}).code, 0);
   EXPECT_EQ(reload({"layout", layout("wide"), "--health", "0s"}).code, 0);
+}
+
+TEST_F(OtherTypes, Are_refused_if_the_variable_is_forced_while_the_exchange_waits) {
+  Module slow = axis("layout");
+  slow.period = "5s";
+  start_and_wait({kOther, slow});
+  ASSERT_TRUE(runs_reach("layout", 1));
+  const auto size = [this] {
+    const auto file = vars::ShmFile::open(vars::block_file(node()), vars::Mode::ReadOnly);
+    return file ? file->size() : 0;
+  };
+  const std::size_t before = size();
+  Program reloading({INDUROP_PROGRAM, "reload", "layout", layout("wide"), "--health", "0s", "--node", node()},
+                    environment());
+  ASSERT_TRUE(wait_until([&] { return size() > before; })) << "the new version has been loaded";
+  ASSERT_EQ(indurop({"force", "nt_layout::axis.x", "5", "--node", node()}).code, 0);
+  EXPECT_NE(reloading.wait(), 0);
+  EXPECT_CONTAINS(reloading.err(), "release it (indurop unforce)");
+}
+
+// The module adds 1 in each run. Most of the values come after the copying in a gap between two runs.
+TEST_F(OtherTypes, No_value_that_a_tool_has_set_is_lost) {
+  constexpr std::int32_t kStep = 1000;
+  Module slow = axis("layout");
+  slow.period = "100ms";
+  start_and_wait({kOther, slow});
+  ASSERT_TRUE(runs_reach("layout", 1));
+  std::int32_t set = 0;
+  for (int round = 0; round < 5; ++round) {
+    auto store = vars::Store::attach(node(), vars::Mode::ReadWrite);
+    ASSERT_TRUE(store.ok());
+    const auto* const entry = store->find(abi::fnv1a64("nt_layout::axis", 15));
+    ASSERT_NE(entry, nullptr);
+    Program reloading({INDUROP_PROGRAM, "reload", "layout", layout("wide"), "--health", "0s", "--node", node()},
+                      environment());
+    const auto writes = [&](std::int32_t value) {
+      std::array<std::uint8_t, sizeof value> bytes{};
+      std::memcpy(bytes.data(), &value, sizeof value);
+      return store->write(*entry, 0, bytes).ok();
+    };
+    while (reloading.running() && writes(set + kStep)) {
+      set += kStep;
+      rt::sleep_until(rt::MonoClock::now() + std::chrono::milliseconds(15));
+    }
+    EXPECT_EQ(reloading.wait(), 0) << reloading.err();
+    EXPECT_GE(moved(), set);
+    ASSERT_EQ(reload({"layout", "--back"}).code, 0);
+  }
 }
 
 TEST_F(OtherTypes, A_value_that_does_not_fit_is_lost_only_with_consent) {

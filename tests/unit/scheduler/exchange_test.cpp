@@ -179,6 +179,38 @@ TEST_F(ModuleExchange, A_copy_counts_only_if_no_run_has_begun_since) {
   EXPECT_THAT(g_shown, ElementsAre(1, 2, 3, 4, -5, -6));
 }
 
+TEST_F(ModuleExchange, A_copy_counts_only_if_nothing_of_it_was_written_since) {
+  std::atomic<std::uint64_t> version{7};
+  Exchange::Settings settings = settings_of({});
+  settings.offered = true;
+  settings.versions = {{&version}};
+  Exchange exchange(std::move(settings));
+  ASSERT_TRUE(sut->watch(0, exchange));
+  steps(1);
+  std::uint64_t gap = *exchange.gap();
+  exchange.note_versions();
+  g_new = g_old;
+  exchange.offer(gap);
+  EXPECT_FALSE(exchange.withdraw(gap)) << "nothing was written";
+  ++version;
+  EXPECT_TRUE(exchange.withdraw(gap));
+  EXPECT_FALSE(exchange.is_offered(gap)) << "it can be copied again in the same gap";
+  steps(1);
+  EXPECT_EQ(exchange.step(), Step::Waiting);
+  gap = *exchange.gap();
+  exchange.note_versions();
+  exchange.offer(gap);
+  ++version;
+  steps(1);
+  EXPECT_EQ(exchange.step(), Step::Waiting) << "the run that would take it notices that, too";
+  gap = *exchange.gap();
+  exchange.note_versions();
+  g_new = g_old;
+  exchange.offer(gap);
+  steps(2);
+  EXPECT_THAT(g_shown, ElementsAre(1, 2, 3, -4, -5));
+}
+
 TEST_F(ModuleExchange, A_stopped_module_gets_other_code) {
   ASSERT_TRUE(sut->disable(0));
   Exchange exchange(settings_of({}));
