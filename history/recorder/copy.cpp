@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "history/recorder/run_words.h"
 #include "history/recorder/sources.h"
 
 namespace indurop::recorder {
@@ -47,16 +48,19 @@ Result<void, Problem> copy_metadata(const recording::McapReader& from, const std
 }  // namespace
 
 Result<ChannelMap, Problem> copy_channels(const recording::McapReader& from, const std::string& prefix,
-                                          recording::McapWriter& to, std::map<std::string, std::uint16_t>& topics) {
+                                          recording::McapWriter& to, KnownChannels& known) {
   ChannelMap channels;
   std::map<std::uint16_t, std::uint16_t> schemas{{std::uint16_t{0}, std::uint16_t{0}}};
   for (const auto& [id, channel] : from.contents().channels) {
     const std::string topic = prefix + channel.topic;
-    if (const auto known = topics.find(topic); known != topics.end()) {
-      channels[id] = known->second;
+    const auto schema = from.contents().schemas.find(channel.schema);
+    const auto form = channel.metadata.find(kKeyframeForm);
+    const std::array<std::string, 3> key{topic, schema == from.contents().schemas.end() ? "" : schema->second.data,
+                                         form == channel.metadata.end() ? "" : form->second};
+    if (const auto same = known.find(key); same != known.end()) {
+      channels[id] = same->second;
       continue;
     }
-    const auto schema = from.contents().schemas.find(channel.schema);
     if (schema != from.contents().schemas.end() && !schemas.contains(channel.schema)) {
       auto added = to.add_schema(schema->second.name, schema->second.encoding, schema->second.data);
       if (!added) {
@@ -68,7 +72,7 @@ Result<ChannelMap, Problem> copy_channels(const recording::McapReader& from, con
     if (!added) {
       return std::move(added).error();
     }
-    channels[id] = topics[topic] = *added;
+    channels[id] = known[key] = *added;
   }
   return channels;
 }
@@ -81,8 +85,8 @@ Result<void, Problem> copy_about(const recording::McapReader& from, const std::s
 
 Result<ChannelMap, Problem> copy_frame(const recording::McapReader& from, const std::string& prefix,
                                        recording::McapWriter& to) {
-  std::map<std::string, std::uint16_t> topics;
-  auto channels = copy_channels(from, prefix, to, topics);
+  KnownChannels known;
+  auto channels = copy_channels(from, prefix, to, known);
   if (!channels) {
     return channels;
   }

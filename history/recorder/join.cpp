@@ -210,9 +210,9 @@ Result<std::vector<Chain>, Problem> open_all(const std::vector<std::filesystem::
 }
 
 Result<void, Problem> copy_frames(Chain& chain, recording::McapWriter& writer) {
-  std::map<std::string, std::uint16_t> topics;
+  KnownChannels known;
   for (Part& part : chain.parts) {
-    auto channels = copy_channels(part.reader, chain.prefix, writer, topics);
+    auto channels = copy_channels(part.reader, chain.prefix, writer, known);
     if (!channels) {
       return std::move(channels).error();
     }

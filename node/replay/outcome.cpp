@@ -71,6 +71,11 @@ bool report_left_out(const ReplayedModules& modules, std::uint64_t runs_not_here
                     module.repeated, name);
       whole = false;
     }
+    if (module.lacking > 0) {
+      console.error("{} runs of {} were not repeated: their version declares variables in another way", module.lacking,
+                    name);
+      whole = false;
+    }
     if (module.too_early > 0) {
       fmt::print("{} of {} runs of {} were not repeated: not all of their inputs were recorded before them\n",
                  module.too_early, module.seen, name);

@@ -2,8 +2,10 @@
 #include "node/replay/recorded_runs.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "history/explain/facts_json.h"
@@ -55,7 +57,8 @@ Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::str
   const recording::TextMap end = recorder::last_metadata(reader_, prefix_ + recorder::kEndMetadata);
   const auto lost = end.find("lost_runs");
   without_gaps_ = lost != end.end() && lost->second == "0";
-  std::string changed;
+  std::set<std::string> fits;
+  std::set<std::string> changed;
   for (const auto& [id, place] : sources.channels) {
     if (place.source != *source) {
       continue;
@@ -78,15 +81,18 @@ Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::str
     const auto schema = contents.schemas.find(contents.channels.at(id).schema);
     const std::string now = recording::omg_idl(store.schema().variables[entry->schema_index].type).text;
     if (schema == contents.schemas.end() || schema->second.data != now) {
-      changed += (changed.empty() ? "" : ", ") + place.name;
+      changed.insert(place.name);
       continue;
     }
+    fits.insert(place.name);
     variables_[id] = static_cast<std::uint32_t>(entry - store.directory().data());
   }
+  // Of a variable whose type changed while it was recorded, the values of this type are read.
+  std::erase_if(changed, [&fits](const std::string& one) { return fits.contains(one); });
   if (!changed.empty()) {
     return Unfit{fmt::format("{} has another type in this configuration than in {}: replay with the modules that "
                              "were recorded",
-                             changed, name),
+                             fmt::join(changed, ", "), name),
                  kSchemaMismatch};
   }
   return {};

@@ -159,6 +159,7 @@ bool Replay::replay_run(const recorder::RunWords& run) {
     return false;
   }
   module.restart_due = module.restart_due || run.anew;
+  module.lacking += module.lacks_version && run.tail.tick >= options_.replay.from_tick ? 1U : 0U;
   const bool can = can_repeat(module, run);
   if (can && module.seen == 0 && !alone_) {
     modules_.write_first_outputs(module);

@@ -86,6 +86,7 @@ struct ReplayedModule {
   std::uint64_t seen = 0;       // in the recording
   std::uint64_t left_out = 0;   // not repeated because of unknown inputs
   std::uint64_t too_early = 0;  // not repeated because not all of their inputs are recorded before them
+  std::uint64_t lacking = 0;    // not repeated because their version declares variables in another way
   std::uint64_t repeated = 0;
   std::uint64_t disturbed_runs = 0;
   std::uint64_t next_number = 0;  // of the run that follows the last one that was read
@@ -97,7 +98,7 @@ struct ReplayedModule {
 
   // For a module that was exchanged in the recording.
   std::map<std::uint64_t, schema::Access> version_access;  // what any of its versions reads or writes
-  bool lacks_version = false;                              // its version of this run is missing
+  bool lacks_version = false;                              // its version of this run cannot repeat it
   bool begins_again = false;                               // that version begins with initial values
 
   // For a module that goes on with what it wrote itself.

@@ -82,10 +82,11 @@ bool ReplayedVersions::is_wanted(const Versions& versions, std::size_t index) co
 bool ReplayedVersions::load(ReplayedModule& module, Versions& versions, const RecordedRuns& recorded) {
   std::map<std::string, const Version*> loaded;  // by digest
   std::set<std::string> missing;
+  std::set<std::string> of_other_types;
   for (std::size_t i = 0; i < versions.order.size(); ++i) {
     const recorder::RecordedVersion& one = versions.order[i];
     Version& version = versions.by_number[one.number];
-    if (!version.file.empty()) {
+    if (!version.file.empty() || of_other_types.contains(one.digest)) {
       continue;
     }
     if (const auto known = loaded.find(one.digest); known != loaded.end()) {
@@ -102,8 +103,9 @@ bool ReplayedVersions::load(ReplayedModule& module, Versions& versions, const Re
         case Loading::Failed:
           return false;
         case Loading::ChangesTypes:
-          versions.order.clear();
-          return true;
+          version = {};
+          of_other_types.insert(one.digest);
+          break;
         case Loading::Done:
           loaded[one.digest] = &version;
           module.version_access.insert(version.access.begin(), version.access.end());
@@ -123,8 +125,7 @@ ReplayedVersions::Loading ReplayedVersions::load_first(const ReplayedModule& mod
                                         module.index, true, libraries_, configured_uses});
   if (candidate.errors.empty() && candidate.variables.changes_types()) {
     console_.warning(
-        "module {}: {} declares {} in another way than the version before it, which a replay does not exchange: the "
-        "module's runs are repeated up to the exchange",
+        "module {}: {} declares {} in another way than this configuration: the runs of this version are not repeated",
         module.name, version.file.string(), candidate.variables.changed().front().to.name);
     return Loading::ChangesTypes;
   }

@@ -45,7 +45,7 @@ class ReplayedVersions {
 
  private:
   struct Version {
-    std::filesystem::path file;  // empty: it is missing, and no run that is wanted is one of it
+    std::filesystem::path file;  // empty: none of its runs is repeated: it is not wanted, or has other types
     AllowedAccess access;
     ModuleLibrary library;  // empty: it runs, or is not loaded now
     bool started = false;

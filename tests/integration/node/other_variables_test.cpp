@@ -245,6 +245,46 @@ TEST_F(OtherTypes, No_value_that_a_tool_has_set_is_lost) {
   }
 }
 
+// Also of parts of it that begin with another version, and of parts that were joined.
+TEST_F(OtherTypes, A_replay_repeats_the_runs_of_those_versions_that_declare_what_its_configuration_does) {
+  const std::string all = folder() / "all.mcap";
+  Program& program = start_and_wait({kOther, axis("layout")}, {"--record", all});
+  const auto& record = module("layout");
+  std::vector<std::uint64_t> first;  // ticks of the versions
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"layout", layout("wide"), "--health", "0s"},
+                                             {"layout", "--back"},
+                                             {"layout", layout("wide"), "--health", "0s"}}) {
+    ASSERT_TRUE(runs_reach("layout", record.runs.load() + 1200)) << "with keyframes";
+    ASSERT_EQ(reload(words).code, 0);
+    first.push_back(record.version_tick.load());
+  }
+  ASSERT_TRUE(runs_reach("layout", record.runs.load() + 100));
+  program.signal(SIGINT);
+  ASSERT_EQ(program.wait(), 128 + SIGINT);
+  const auto replays = [this](const std::string& file, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {"replay", file, "--node", node() + "-r"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome done = indurop(words);
+    EXPECT_CONTAINS(done.out, " values: equal") << done.err;
+    EXPECT_FALSE(contains(done.err, "damaged")) << done.err;
+    return done;
+  };
+  const auto at = [](std::uint64_t tick) { return std::to_string(tick) + "ms"; };
+  const Outcome whole = replays(all);
+  EXPECT_EQ(whole.code, 1);
+  EXPECT_CONTAINS(whole.err, "declares nt_layout::axis in another way than this configuration");
+  EXPECT_EQ(replays(all, {"--to", std::to_string(first[0] - 1)}).code, 0);
+  EXPECT_EQ(replays(all, {"--from", std::to_string(first[1] + 1000), "--to", std::to_string(first[2] - 1)}).code, 0);
+  const std::string parts[] = {folder() / "a.mcap", folder() / "b.mcap", folder() / "both.mcap"};
+  ASSERT_EQ(indurop({"recording", "cut", all, "--to", at(first[0] + 500), "-o", parts[0]}).code, 0);
+  ASSERT_EQ(indurop({"recording", "cut", all, "--from", at(first[0] + 500), "-o", parts[1]}).code, 0);
+  EXPECT_EQ(replays(parts[0]).code, 1);
+  EXPECT_EQ(replays(parts[1]).code, 1);
+  ASSERT_EQ(indurop({"recording", "join", parts[0], parts[1], "-o", parts[2]}).code, 0);
+  EXPECT_EQ(replays(parts[2]).code, 1);
+}
+
 TEST_F(OtherTypes, A_value_that_does_not_fit_is_lost_only_with_consent) {
   start_and_wait({kOther, axis("layout")});
   ASSERT_TRUE(runs_reach("layout", 300));
