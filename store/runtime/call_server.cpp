@@ -2,7 +2,6 @@
 
 #include "store/runtime/call_server.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 #include <indurop/irp.h>
 #include <unistd.h>
@@ -18,6 +17,7 @@
 #include "core/rt/shared_mutex.h"
 #include "store/runtime/attachment.h"
 #include "store/runtime/host.h"
+#include "store/runtime/module_file.h"
 #include "store/runtime/process.h"
 #include "store/vars/call_state.h"
 
@@ -285,10 +285,8 @@ FunctionServers::FunctionServers() = default;
 FunctionServers::~FunctionServers() = default;
 
 void FunctionServers::offer(FunctionOffer& offer) {
-  Dl_info info{};
   const std::lock_guard lock(mutex_);
-  const bool known = ::dladdr(reinterpret_cast<const void*>(offer.invoke), &info) != 0;
-  offers_.push_back({&offer, known ? info.dli_fbase : nullptr, current_module()});
+  offers_.push_back({&offer, image_of(reinterpret_cast<const void*>(offer.invoke)), current_module()});
 }
 
 void FunctionServers::withdraw(const FunctionOffer& offer) {

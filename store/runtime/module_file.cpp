@@ -3,12 +3,24 @@
 #include "store/runtime/module_file.h"
 
 #include <dlfcn.h>
+#include <link.h>
 
-#include <cerrno>
-#include <cstring>
+#include <optional>
 #include <utility>
 
 namespace indurop::runtime {
+
+namespace {
+
+// Without the lock of the loader, unlike dladdr(): dlopen() holds that one while a module registers what it uses, and
+// waits for locks that callers of this function hold.
+std::optional<dl_find_object> find_object(const void* address) noexcept {
+  dl_find_object found{};
+  const bool done = ::_dl_find_object(const_cast<void*>(address), &found) == 0;  // NOLINT(*-const-cast): only read
+  return done ? std::optional(found) : std::nullopt;
+}
+
+}  // namespace
 
 const schema::Variable* ModuleFacts::variable(std::uint64_t name_hash) const noexcept {
   for (const auto& variable : schema.variables) {
@@ -27,13 +39,18 @@ bool ModuleFacts::uses(std::uint64_t name_hash) const noexcept {
   return found != file.access.end() && (found->second.reads || found->second.writes);
 }
 
+const void* image_of(const void* address) noexcept {
+  const auto found = find_object(address);
+  return found ? found->dlfo_map_start : nullptr;
+}
+
 std::string path_of(const void* address) {
-  Dl_info info{};
-  if (::dladdr(address, &info) == 0 || info.dli_fname == nullptr) {
+  const auto found = find_object(address);
+  if (!found) {
     return {};
   }
-  // The program itself is reported as it was invoked, which need not be a path.
-  return std::strcmp(info.dli_fname, program_invocation_name) == 0 ? "/proc/self/exe" : info.dli_fname;
+  const std::string name = found->dlfo_link_map->l_name;
+  return name.empty() ? "/proc/self/exe" : name;  // the program itself has no name
 }
 
 ModuleFacts read_module_of(const void* address) {

@@ -23,6 +23,8 @@ struct ModuleFacts {
 
 // `address`: any address inside the loaded file. Not real-time safe.
 ModuleFacts read_module_of(const void* address);
+// Identifies the loaded file that holds `address`; nullptr: there is none. Takes no lock, nor does path_of().
+const void* image_of(const void* address) noexcept;
 // Path of the loaded file that holds `address`, "" if unknown.
 std::string path_of(const void* address);
 

@@ -85,9 +85,9 @@ std::vector<BindingProblem> PoolBindings::bind_all(const std::string& node, bool
 }
 
 void PoolBindings::bind_apart(const void* inside) {
-  const std::string file = path_of(inside);
+  const void* const image = image_of(inside);
   for (Use& use : uses_) {
-    if (path_of(use.use) == file) {
+    if (image_of(use.use) == image) {
       use.apart = true;
       end(*use.use);
     }
@@ -95,10 +95,10 @@ void PoolBindings::bind_apart(const void* inside) {
 }
 
 void PoolBindings::bind_back(const void* inside, const std::string& node) {
-  const std::string file = path_of(inside);
+  const void* const image = image_of(inside);
   std::vector<BindingProblem> known;  // since the file was loaded
   for (Use& use : uses_) {
-    if (use.apart && path_of(use.use) == file) {
+    if (use.apart && image_of(use.use) == image) {
       use.apart = false;
       bind_one(use, node, false, known);
     }

@@ -2,7 +2,6 @@
 
 #include "store/runtime/ref_tables.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,12 +13,6 @@ namespace {
 
 // Begins with 1: code that has cached no address yet has seen 0.
 std::atomic<std::uint32_t> bindings_done{1};  // NOLINT(*avoid-non-const-global*): one number for the process
-
-// Identifies the loaded file that holds an address.
-const void* image_of(const void* address) {
-  Dl_info info{};
-  return ::dladdr(address, &info) != 0 ? info.dli_fbase : nullptr;
-}
 
 std::string type_text(const schema::Type& type) {
   return fmt::format("{} ({} bytes)", display_name(type), type.size());
