@@ -257,6 +257,8 @@ void BoardExchange::describe_schedule(const operate::SetReport& report) {
     if (module.module == report.refused && !report.needs_restart) {
       module.act = ModulePlan::Act::Refused;
       module.why = report.problem;
+    } else if (found != report.schedule.end() && found->fate == "added") {
+      module.why = found->text;
     } else if (found != report.schedule.end() && found->fate == "rescheduled") {
       const bool kept = module.act == ModulePlan::Act::Kept || module.act == ModulePlan::Act::Rescheduled;
       module.act = kept ? ModulePlan::Act::Rescheduled : module.act;

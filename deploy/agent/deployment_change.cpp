@@ -170,7 +170,7 @@ DeploymentChange change_between(const AgentState& state, const std::string& boar
   }
   if (!change.plan.restart.empty()) {
     change.exchanged.clear();
-  } else if (!config::manifest_difference(before->document(), after->document()).empty()) {
+  } else {
     change.manifest = state.manifest(to).string();
   }
   return change;

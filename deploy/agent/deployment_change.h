@@ -17,7 +17,8 @@ namespace indurop::deploy {
 struct DeploymentChange {
   BoardPlan plan;                                      // Exchanged: of all that have another version
   std::vector<operate::SetRequest::Module> exchanged;  // only if the node need not be restarted
-  std::string manifest;  // of the schedule that follows, on whatever board it differs; empty: the schedule stays
+  // Of the schedule that follows, and of what the boards exchange then. Empty: the node has to be restarted.
+  std::string manifest;
 };
 
 // Both deployments are installed on the board. `running`: SHA-256 of the versions that run, by module; modules that are

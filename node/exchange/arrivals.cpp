@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/exchange/arrivals.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -45,7 +48,7 @@ void Arrivals::load_next() {
     const One& one = all_[loaded_];
     loading_ = std::make_unique<CandidateThread>(
         CandidateTask{next_->config, one.place, next_->config.modules[one.place].file, parts_.store,
-                      next_->check.facts[one.place].file.access, none_, one.index});
+                      next_->check.facts[one.place].file.access, none_, one.index, next_->mirror.has_value()});
   }
 }
 
@@ -61,10 +64,24 @@ bool Arrivals::is_loaded() {
       needs_restart_ = needs_restart_ && candidate.needs_restart;
       refused_ = next_->config.modules[all_[loaded_].place].name;
     }
+    all_[loaded_].variables = std::move(candidate.variables);
     all_[loaded_++].library = std::move(candidate.library);
     load_next();
   }
   return loading_ == nullptr;
+}
+
+void Arrivals::list_variables(operate::ScheduleReport& report) const {
+  for (const One& one : all_) {
+    operate::ReloadPlan plan;
+    (void)one.variables.list(parts_.store, plan);
+    const std::string& name = next_->config.modules[one.place].name;
+    const auto found = std::find_if(report.modules.begin(), report.modules.end(),
+                                    [&name](const auto& module) { return module.name == name; });
+    if (found != report.modules.end() && !plan.appeared.empty()) {
+      found->text = fmt::format("new: {}", fmt::join(plan.appeared, ", "));
+    }
+  }
 }
 
 bool Arrivals::place(SchedulePlan& plan, const scheduler::RunBlockSetup& setup,
@@ -139,6 +156,12 @@ bool Arrivals::is_started(rt::MonoTime now) {
     if (auto* start = parts_.libraries[index].functions().start; start != nullptr) {
       call_ = parts_.phases.begin(index, "start", start);
       failure_ = call_ == nullptr ? "start() could not be called" : "";
+      return false;
+    }
+  }
+  for (One& one : all_) {
+    if (!one.variables.let_appear(parts_.store)) {
+      failure_ = "another version has brought other variables meanwhile; repeat the command";
       return false;
     }
   }

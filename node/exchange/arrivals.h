@@ -15,6 +15,7 @@
 #include "node/modules/failsafe.h"
 #include "node/run/checked.h"
 #include "scheduler/run_block_setup.h"
+#include "store/operate/schedule_request.h"
 #include "store/tape/tape.h"
 
 namespace indurop::node {
@@ -40,6 +41,8 @@ class Arrivals {
   void begin(const Rechecked& next, const SchedulePlan& plan);
   // Continues. Returns true when all are loaded, or errors() says what is wrong.
   bool is_loaded();
+  // Says in the report which variables they bring.
+  void list_variables(operate::ScheduleReport& report) const;
   [[nodiscard]] const std::vector<std::string>& errors() const noexcept { return errors_; }
   // Returns true if a node that is started with them has none of the errors.
   [[nodiscard]] bool needs_restart() const noexcept { return needs_restart_; }
@@ -66,6 +69,7 @@ class Arrivals {
     std::uint32_t index = SchedulePlan::kNoModule;
     bool loads = false;  // else it has ended, and its code is there
     ModuleLibrary library;
+    VariableChange variables;  // that it brings
   };
   void load_next();
   std::uint32_t add(One& one, const scheduler::ModuleSetup& setup);

@@ -84,7 +84,7 @@ class CandidateCheck {
     if (entry == nullptr) {
       return task_.may_grow ? void()
                             : error(fmt::format("variable {} is not one of this node; restart the node with the new "
-                                                "version",
+                                                "version, or let `indurop deploy` bring it to a plant",
                                                 variable.name));
     }
     const schema::Variable& known = task_.store.schema().variables[entry->schema_index];
@@ -96,7 +96,7 @@ class CandidateCheck {
                       variable.name, schema::first_difference(variable.type, known.type)));
     }
     if (entry->offset >= task_.store.header().total_size) {
-      return;  // it appeared while the node runs
+      return check_new_variable(variable, access);
     }
     const auto allowed = task_.allowed.find(variable.name_hash());
     const schema::Access then = allowed != task_.allowed.end() ? allowed->second : schema::Access{};
@@ -105,6 +105,19 @@ class CandidateCheck {
           fmt::format("it {} variable {}, which the version the node started with did not: order, tape and messages "
                       "do not expect that; restart the node with the new version",
                       access.writes && !then.writes ? "writes" : "reads", variable.name));
+    }
+  }
+
+  // One that appeared while the node runs. Of a plant, only a deployment can say from where it comes.
+  void check_new_variable(const schema::Variable& variable, const schema::Access& access) {
+    const auto use = task_.running.uses().find(variable.name_hash());
+    const bool as_before = use != task_.running.uses().end() && (use->second.reads || !access.reads) &&
+                           (use->second.writes || !access.writes);
+    if (!task_.may_grow && !as_before) {
+      error(
+          fmt::format("it {} variable {}, which the running version does not: other boards may have to know that; "
+                      "`indurop deploy` exchanges it on all boards",
+                      access.writes ? "writes" : "reads", variable.name));
     }
   }
 

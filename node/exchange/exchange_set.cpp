@@ -240,10 +240,12 @@ void ExchangeSet::conclude_preparation() {
     report_.refused = schedule.held().refused;
     return fail(schedule.held().failure);
   }
-  set_state(compares_ ? State::Compared : State::Ready);
   if (compares_) {
-    forget();
+    set_state(State::Compared);
+    return forget();
   }
+  context_.schedule->open_routes();
+  set_state(State::Ready);
 }
 
 void ExchangeSet::follow_exchange() {
@@ -281,6 +283,9 @@ void ExchangeSet::conclude() {
     any_old = any_old || (!exchange.runs_new() && exchange.result() != CommandResult::Unchanged);
   }
   const bool mixed = keeps_new_ ? any_old : any_new;
+  if (!mixed) {
+    context_.schedule->settle_routes(keeps_new_);
+  }
   if (keeps_new_ && !mixed) {
     for (const auto& [module, file] : files_) {
       context_.files[module] = file;

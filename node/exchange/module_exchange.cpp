@@ -63,13 +63,13 @@ void ModuleExchange::begin(const operate::ReloadRequest& request) {
     }
     guard_ = std::move(guard).value();
   }
-  preparation_ = std::make_unique<CandidateThread>(
-      CandidateTask{context_.parts.config, module_,
-                    request_.file.empty() ? context_.files[module_] : std::filesystem::path(request_.file),
-                    context_.parts.store, context_.allowed[module_], running(), module_, context_.parts.may_grow,
-                    held_ || context_.parts.keeps_types ? std::span<const ModuleLibrary>() : context_.parts.libraries,
-                    context_.configured,
-                    request_.dry_run || context_.track_of(module_) == nullptr ? std::string() : context_.parts.node});
+  preparation_ = std::make_unique<CandidateThread>(CandidateTask{
+      context_.parts.config, module_,
+      request_.file.empty() ? context_.files[module_] : std::filesystem::path(request_.file), context_.parts.store,
+      context_.allowed[module_], running(), module_, held_ || context_.parts.may_grow,
+      held_ || context_.parts.keeps_types ? std::span<const ModuleLibrary>() : context_.parts.libraries,
+      context_.configured,
+      request_.dry_run || context_.track_of(module_) == nullptr ? std::string() : context_.parts.node});
 }
 
 void ModuleExchange::begin_back(scheduler::Exchange::Reason reason) {

@@ -36,6 +36,30 @@ config::Config config_of_schedule(const config::Config& running, const scheduler
   return config;
 }
 
+// Real-time processes have obtained theirs on their own.
+void follow_priorities(const scheduler::RunBlock& run) {
+  for (std::uint32_t i = 0; i < run.module_count; ++i) {
+    const scheduler::ModuleRecord& record = run.modules()[i];
+    const std::int32_t pid = record.pid.load();
+    if (record.type == ModuleType::Process && record.fifo_priority > 0 && pid > 0 && !record.ended) {
+      (void)rt::set_fifo_of(pid, record.fifo_priority);
+    }
+  }
+}
+
+std::string summary_of(const SchedulePlan& plan) {
+  std::string text;
+  using Kind = ModuleFate::Kind;
+  for (const Kind kind : {Kind::Kept, Kind::Rescheduled, Kind::Added, Kind::Ended}) {
+    const auto number =
+        std::count_if(plan.modules.begin(), plan.modules.end(), [kind](const auto& one) { return one.kind == kind; });
+    if (number > 0) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", number, to_text(kind));
+    }
+  }
+  return "modules: " + text;
+}
+
 }  // namespace
 
 void ScheduleChange::poll(rt::MonoTime now, const std::string& others) {
@@ -135,10 +159,10 @@ void ScheduleChange::checked() {
 
 void ScheduleChange::make_plan() {
   plan_ = plan_schedule(parts_.config, parts_.run, next_.config, next_.check);
-  if (held_.on) {
-    compare_links();
-  } else {
+  if (!held_.on) {
     compare_files();
+  } else if (!request_.back) {
+    compare_routes();
   }
   setup_ = make_run_setup(next_.config, next_.check, parts_.options.node, parts_.placement);
   tasks_ = make_tasks(next_.config, next_.check, setup_, parts_.placement.core);
@@ -184,10 +208,11 @@ void ScheduleChange::loaded() {
     held_.needs_restart = arrivals_.needs_restart();
     return refuse(held_.on ? arrivals_.errors().front() : "a module that is added cannot run here");
   }
+  arrivals_.list_variables(report_);
   if (request_.dry_run) {
     (void)arrivals_.drop();
     step_ = Step::Idle;
-    return answer(CommandResult::Done, "would take over, " + summary());
+    return answer(CommandResult::Done, "would take over, " + summary_of(plan_));
   }
   if (!arrivals_.place(plan_, setup_, tasks_)) {
     held_.needs_restart = true;
@@ -282,7 +307,7 @@ void ScheduleChange::settle() {
   }
   parts_.config.file = next_.config.file;
   parts_.config.minimum_period = next_.config.minimum_period;
-  follow_priorities();
+  follow_priorities(run);
   run.macro_period_ns = setup_.macro_period_ns;
   run.slot_count = static_cast<std::uint64_t>(setup_.macro_period_ns / run.basic_period_ns);
   const std::uint64_t number = run.schedule.load() + 1;
@@ -290,8 +315,8 @@ void ScheduleChange::settle() {
   run.schedule_tick.store(parts_.engine.changed_at());
   run.schedule.store(number, std::memory_order_release);
   parts_.console.info("schedule {} ({}) counts since tick {}: {}", number, parts_.config.file.filename().string(),
-                      parts_.engine.changed_at(), summary());
-  answer(CommandResult::Done, "took over, " + summary());
+                      parts_.engine.changed_at(), summary_of(plan_));
+  answer(CommandResult::Done, "took over, " + summary_of(plan_));
 }
 
 void ScheduleChange::settle_module(std::size_t place, std::uint32_t index) {
@@ -308,29 +333,6 @@ void ScheduleChange::settle_module(std::size_t place, std::uint32_t index) {
   next_.config.modules[place].file = module.file;
   next_.config.modules[place].file_as_written = module.file_as_written;
   module = std::move(next_.config.modules[place]);
-}
-
-// Real-time processes have obtained theirs on their own.
-void ScheduleChange::follow_priorities() const {
-  for (std::uint32_t i = 0; i < parts_.run.module_count; ++i) {
-    const std::int32_t pid = record(i).pid.load();
-    if (record(i).type == ModuleType::Process && record(i).fifo_priority > 0 && pid > 0 && !record(i).ended) {
-      (void)rt::set_fifo_of(pid, record(i).fifo_priority);
-    }
-  }
-}
-
-std::string ScheduleChange::summary() const {
-  std::string text;
-  using Kind = ModuleFate::Kind;
-  for (const Kind kind : {Kind::Kept, Kind::Rescheduled, Kind::Added, Kind::Ended}) {
-    const auto number =
-        std::count_if(plan_.modules.begin(), plan_.modules.end(), [kind](const auto& one) { return one.kind == kind; });
-    if (number > 0) {
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", number, to_text(kind));
-    }
-  }
-  return "modules: " + text;
 }
 
 void ScheduleChange::fail(const std::string& why) {

@@ -15,6 +15,7 @@
 #include "node/exchange/arrivals.h"
 #include "node/exchange/macro_grid.h"
 #include "node/exchange/schedule_plan.h"
+#include "node/parts/board_mirror.h"
 #include "node/run/checked.h"
 #include "node/run/console.h"
 #include "node/run/setup.h"
@@ -33,9 +34,11 @@ class ScheduleChange {
     scheduler::RunBlock& run;
     const std::vector<ModuleLibrary>& libraries;
     scheduler::Engine& engine;
+    const vars::Store& store;
     Console& console;
     Placement placement;
-    const BoardLinks& links;
+    BoardRoutes& routes;
+    BoardMirror& mirror;
   };
 
   ScheduleChange(const Parts& parts, const Arrivals::Parts& arrivals)
@@ -80,6 +83,10 @@ class ScheduleChange {
   void enter(std::uint64_t tick);
   // The schedule before is to count. Returns at once; it may have to take over again.
   void go_back();
+  // From now on the board exchanges what either schedule, with the modules that follow, is to exchange with others.
+  void open_routes();
+  // Only one of the two counts.
+  void settle_routes(bool keeps_next);
   [[nodiscard]] bool is_at_rest() const noexcept { return step_ == Step::Idle; }
 
  private:
@@ -99,7 +106,7 @@ class ScheduleChange {
   void checked();
   void make_plan();
   void compare_files();
-  void compare_links();
+  void compare_routes();
   void loaded();
   void start(rt::MonoTime now, const std::string& others);
   void prepare(const std::string& others);
@@ -111,12 +118,10 @@ class ScheduleChange {
   void follow();
   void settle();
   void settle_module(std::size_t place, std::uint32_t index);
-  void follow_priorities() const;
   void fail(const std::string& why);
   void refuse(const std::string& why);
   void answer(scheduler::CommandResult result, const std::string& text);
   void respond(operate::ScheduleReport report, scheduler::CommandResult result, const std::string& text) const;
-  [[nodiscard]] std::string summary() const;
   [[nodiscard]] scheduler::ModuleRecord& record(std::uint32_t module) const noexcept {
     return parts_.run.modules()[module];
   }

@@ -44,9 +44,27 @@ bool ScheduleChange::is_prepared() const noexcept {
   return step_ == Step::Ready || step_ == Step::Idle || !held_.failure.empty();
 }
 
-// Messages between boards, and who writes what is sent, are those of the start.
-void ScheduleChange::compare_links() {
-  if (std::string difference = parts_.links.difference(*next_.mirror); !difference.empty()) {
+// Who writes what is sent stays as it is; what is sent and read may be more.
+void ScheduleChange::compare_routes() {
+  const vars::Store& store = parts_.store;
+  const auto find = [&store](const std::string& name) { return store.find(abi::fnv1a64(name.data(), name.size())); };
+  const BoardRoutes::Standing standing{
+      [this](const std::string& name) {
+        return std::any_of(parts_.libraries.begin(), parts_.libraries.end(), [&name](const ModuleLibrary& library) {
+          return library.uses().contains(abi::fnv1a64(name.data(), name.size()));
+        });
+      },
+      [&](const std::string& name) {
+        const vars::DirectoryEntry* const entry = find(name);
+        return entry != nullptr && entry->offset < store.header().total_size;
+      },
+      [this](const std::string& name) {
+        return std::any_of(next_.check.uses.begin(), next_.check.uses.end(), [&name](const config::VariableUse& use) {
+          return use.name == name && !(use.readers.empty() && use.writers.empty());
+        });
+      }};
+  const mirror::Routes& next = next_.mirror->routes;
+  if (std::string difference = parts_.routes.difference(next, standing); !difference.empty()) {
     plan_.restarts.push_back(std::move(difference));
   }
   for (const std::uint32_t place : plan_.added) {
@@ -56,13 +74,26 @@ void ScheduleChange::compare_links() {
     if (index != SchedulePlan::kNoModule && digest && digest->digest == parts_.libraries[index].digest()) {
       continue;  // it was there before
     }
-    const auto sent =
-        std::find_if(next_.mirror->outgoing.begin(), next_.mirror->outgoing.end(),
-                     [&](const mirror::Outgoing& out) { return writes(next_.check.facts[place], out.variable); });
-    if (sent != next_.mirror->outgoing.end()) {
+    const auto sent = std::find_if(next.outgoing.begin(), next.outgoing.end(), [&](const mirror::Outgoing& out) {
+      return parts_.routes.sends(out.variable) && writes(next_.check.facts[place], out.variable);
+    });
+    if (sent != next.outgoing.end()) {
       plan_.restarts.push_back(fmt::format("module {} is added and writes variable {}, which other boards read",
                                            module.name, sent->variable));
     }
+  }
+}
+
+// Only a request with the configuration of a board of a plant has routes.
+void ScheduleChange::open_routes() {
+  if (next_.mirror) {
+    parts_.mirror.follow(parts_.routes.extend(next_.mirror->routes, {parts_.config, next_.check, parts_.engine}));
+  }
+}
+
+void ScheduleChange::settle_routes(bool keeps_next) {
+  if (parts_.routes.is_extended()) {
+    parts_.mirror.follow(parts_.routes.settle(keeps_next));
   }
 }
 

@@ -37,14 +37,15 @@ class ModuleCommands {
     Console& console;
     tape::Tape* tape;  // null: none
     Placement placement;
-    const BoardLinks& links;
+    BoardRoutes& routes;
+    BoardMirror& mirror;
   };
   // `check`: as the node starts. `apart`: for versions that do not run.
   ModuleCommands(const Parts& parts, const Exchanges::Parts& exchanges, const config::CheckResult& check, Phases apart)
       : parts_(parts),
         exchanges_(exchanges, check, apart),
         schedule_(ScheduleChange::Parts{parts.options, parts.config, parts.run, parts.libraries, parts.engine,
-                                        parts.console, parts.placement, parts.links},
+                                        exchanges.store, parts.console, parts.placement, parts.routes, parts.mirror},
                   Arrivals::Parts{parts.config, parts.run, parts.libraries, parts.engine, exchanges.store,
                                   parts.failsafe, exchanges_, parts.phases, parts.tape}) {
     exchanges_.connect(schedule_);

@@ -25,6 +25,7 @@ class NetworkMirror final : public RunningMirror {
     mirror_.announce({rt::WallClock::now() + (epoch - rt::MonoClock::now()), basic, macro});
   }
   void notify() noexcept override { mirror_.notify(); }
+  void follow(const mirror::Routes& routes) override { mirror_.follow(routes); }
   [[nodiscard]] const mirror::MirrorBlock& block() const noexcept override { return mirror_.block(); }
 
  private:
@@ -84,6 +85,12 @@ void BoardMirror::announce() noexcept {
 void BoardMirror::notify() noexcept {
   if (running_) {
     running_->notify();
+  }
+}
+
+void BoardMirror::follow(const mirror::Routes& routes) {
+  if (running_) {
+    running_->follow(routes);
   }
 }
 

@@ -26,6 +26,8 @@ class BoardMirror {
   void announce() noexcept;
   // Called when the store may have changed. Real-time safe.
   void notify() noexcept;
+  // Exchanges this from now on, see mirror::Exchange::follow().
+  void follow(const mirror::Routes& routes);
   [[nodiscard]] const mirror::MirrorBlock* block() const noexcept;
   // Stops the mirror; the other boards notice at once that this one is gone.
   void stop() noexcept;

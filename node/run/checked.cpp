@@ -121,7 +121,7 @@ Reading read_plant(const Options& options) {
     if (plant.boards[i].name == options.board) {
       out.checked.mirror = mirror_settings(plant, check, i);
       out.checked.mirror->network.one_host = options.one_host;
-      out.checked.links = BoardLinks(*out.checked.mirror);
+      out.checked.routes = BoardRoutes(out.checked.mirror->routes);
       out.checked.external.configure(plant, check, i, options.one_host);
       out.checked.config = std::move(plant.boards[i].config);
       out.checked.check = std::move(check.boards[i]);

@@ -10,6 +10,7 @@
 
 #include "config/check/check.h"
 #include "network/mirror/frames/settings.h"
+#include "node/parts/board_routes.h"
 #include "node/parts/external_part.h"
 #include "node/parts/plant_part.h"
 #include "node/run/ending.h"
@@ -21,7 +22,7 @@ struct Checked {
   config::Config config;
   config::CheckResult check;
   std::optional<mirror::Settings> mirror;  // of a board of a plant
-  BoardLinks links;                        // what `mirror` exchanges
+  BoardRoutes routes;                      // what `mirror` exchanges
   ExternalPart external;
   std::vector<std::uint32_t> replaced;  // indices of modules with a file of --with
   std::optional<std::uint32_t> alone;   // index of the only module that is loaded, for Replay::report

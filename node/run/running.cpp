@@ -56,7 +56,7 @@ Running::Running(const Options& options, Console& console, base::StopSignal& sig
       commands_(
           ModuleCommands::Parts{options, checked.config, run_, loaded.libraries, engine_, processes_, normal_threads_,
                                 phases_, *prepared.failsafe, console, prepared.tape.get(),
-                                placement(options, prepared.rights), checked.links},
+                                placement(options, prepared.rights), checked.routes, mirror_},
           Exchanges::Parts{options.node, checked.config, run_, loaded.libraries, engine_, *prepared.store, console,
                            options.simulation.on, !checked.mirror, checked.external.is_wanted(), prepared.tape.get()},
           checked.check, Phases(checked.config, run_, loaded.libraries, console, signals, apart_hooks(), kernel_)) {}
@@ -171,7 +171,7 @@ bool Running::await_processes(rt::MonoTime until) {
 
 Result<void, Ending> Running::start_schedule() {
   if (checked_.mirror) {
-    name_writers(*checked_.mirror, checked_.config, checked_.check, engine_);
+    checked_.mirror->routes = checked_.routes.name_writers({checked_.config, checked_.check, engine_});
   }
   checked_.check = {};  // no longer needed; what is left stays in memory
   prepared_.store->prefault();

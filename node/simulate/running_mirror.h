@@ -7,6 +7,7 @@
 
 #include "core/rt/clock.h"
 #include "network/mirror/frames/mirror_block.h"
+#include "network/mirror/frames/settings.h"
 
 namespace indurop::node {
 
@@ -23,6 +24,8 @@ class RunningMirror {
                         std::chrono::nanoseconds macro) noexcept = 0;
   // Called when the store may have changed. Real-time safe.
   virtual void notify() noexcept = 0;
+  // The board exchanges this from now on. Only deployments change it, and a simulation has none.
+  virtual void follow(const mirror::Routes& /*routes*/) {}
   [[nodiscard]] virtual const mirror::MirrorBlock& block() const noexcept = 0;
 };
 

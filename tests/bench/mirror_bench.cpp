@@ -54,9 +54,9 @@ mirror::Settings make_settings(bool writer, int domain, const schema::Schema& sc
   (void)rt::set_fifo(0);
   for (const schema::Variable& v : schema.variables) {
     if (writer) {
-      settings.outgoing.push_back({v.name});
+      settings.routes.outgoing.push_back({v.name});
     } else {
-      settings.incoming.push_back({v.name, "writer"});
+      settings.routes.incoming.push_back({v.name, "writer"});
     }
   }
   return settings;

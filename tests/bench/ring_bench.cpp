@@ -71,8 +71,8 @@ schema::Schema make_schema(int count) {
     }
   }
   const int before = (number + count - 1) % count;
-  settings.outgoing.push_back({variable_name(number)});
-  settings.incoming.push_back({variable_name(before), board_name(before)});
+  settings.routes.outgoing.push_back({variable_name(number)});
+  settings.routes.incoming.push_back({variable_name(before), board_name(before)});
   sigset_t stop;
   sigemptyset(&stop);
   sigaddset(&stop, SIGTERM);

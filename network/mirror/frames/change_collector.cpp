@@ -14,7 +14,7 @@ void ChangeCollector::add(const vars::DirectoryEntry& entry, std::uint8_t* image
     group = groups_.end() - 1;
   }
   Item item;
-  item.entry = &entry;
+  item.entry = entry;
   item.ring =
       entry.kind == abi::Kind::Ring ? static_cast<const abi::RingHeader*>(store_.entry(entry.name_hash, 0)) : nullptr;
   item.image = image;
@@ -27,12 +27,12 @@ void ChangeCollector::add(const vars::DirectoryEntry& entry, std::uint8_t* image
 
 bool ChangeCollector::copy_if_different(Group& group, Item& item) const noexcept {
   std::uint8_t* const to = group.copies.data() + item.place;
-  const std::span<std::uint8_t> value(to, item.entry->value_size);
+  const std::span<std::uint8_t> value(to, item.entry.value_size);
   if (item.ring == nullptr) {
-    return store_.read(*item.entry, 0, value).ok() && std::memcmp(to, item.image, value.size()) != 0;
+    return store_.read(item.entry, 0, value).ok() && std::memcmp(to, item.image, value.size()) != 0;
   }
   const std::uint64_t version = item.ring->seq.load(std::memory_order_acquire);
-  if (version == item.seen || !store_.read(*item.entry, 0, value)) {
+  if (version == item.seen || !store_.read(item.entry, 0, value)) {
     return false;
   }
   item.fresh = version;  // a commit during the copy is seen next time
@@ -63,7 +63,7 @@ bool ChangeCollector::collect_group(Group& group, std::int64_t now_ns) const noe
   }
   for (const std::uint32_t i : group.differing) {
     Item& item = group.items[i];
-    std::memcpy(item.image, group.copies.data() + item.place, item.entry->value_size);
+    std::memcpy(item.image, group.copies.data() + item.place, item.entry.value_size);
     item.seen = item.fresh;
     *item.changed = true;
   }

@@ -16,11 +16,11 @@ namespace indurop::mirror {
 
 class ChangeCollector {
  public:
-  // All arguments, and `store`, are borrowed until the end.
+  // `store`, and the addresses below, are borrowed until the end.
   explicit ChangeCollector(const vars::Store& store) : store_(store) {}
 
   // Copies the variable to `image` whenever it has changed, and sets `changed`. `writers` null: any process may write
-  // it.
+  // it. Not during collect().
   void add(const vars::DirectoryEntry& entry, std::uint8_t* image, bool* changed, const Writers* writers);
 
   // Copies what has changed. Returns true if a writer that does not notify is in a run: then call again soon.
@@ -28,7 +28,7 @@ class ChangeCollector {
 
  private:
   struct Item {
-    const vars::DirectoryEntry* entry = nullptr;
+    vars::DirectoryEntry entry{};  // a copy: that of a variable that appeared in a run does not stay in its place
     const abi::RingHeader* ring = nullptr;  // null: scalar
     std::uint8_t* image = nullptr;
     bool* changed = nullptr;

@@ -33,8 +33,9 @@ Exchange::Exchange(Settings settings, vars::Store& store, const std::atomic<std:
 
 Result<std::unique_ptr<Exchange>> Exchange::make(Settings settings, const std::string& node, vars::Store& store,
                                                  const std::atomic<std::uint64_t>& tick) {
-  auto file = vars::ShmFile::create(vars::mirror_file(node),
-                                    mirror_block_size(settings.boards.size(), settings.incoming.size()));
+  auto file =
+      vars::ShmFile::create(vars::mirror_file(node),
+                            mirror_block_size(settings.boards.size(), settings.routes.incoming.size() + kMoreIncoming));
   if (!file) {
     return file.error();
   }
@@ -64,7 +65,7 @@ Landing* Exchange::landing_of(const std::string& variable) {
     return nullptr;
   }
   const auto found = std::find_if(landings_.begin(), landings_.end(),
-                                  [entry](const auto& landing) { return &landing->entry() == entry; });
+                                  [entry](const auto& one) { return one->entry().name_hash == entry->name_hash; });
   if (found != landings_.end()) {
     return found->get();
   }
@@ -72,22 +73,78 @@ Landing* Exchange::landing_of(const std::string& variable) {
   return landings_.back().get();
 }
 
+std::vector<Landing*> Exchange::landings_from(const std::string& board, const std::vector<Incoming>& incoming) {
+  std::vector<Landing*> from_it;
+  for (const Incoming& in : incoming) {
+    if (Landing* landing = in.owner == board ? landing_of(in.variable) : nullptr; landing != nullptr) {
+      from_it.push_back(landing);
+    }
+  }
+  return from_it;
+}
+
 // Creates one receiver per board, with the variables read from it.
 void Exchange::make_receivers() {
   for (std::size_t i = 0; i < settings_.boards.size(); ++i) {
-    std::vector<Landing*> from_it;
-    for (const Incoming& in : settings_.incoming) {
-      if (in.owner != settings_.boards[i]) {
-        continue;
-      }
-      if (Landing* landing = landing_of(in.variable); landing != nullptr) {
-        from_it.push_back(landing);
-        block_.variables()[block_.incoming++] = {abi::fnv1a64(in.variable.data(), in.variable.size()),
-                                                 static_cast<std::uint32_t>(i), 0};
-      }
+    receivers_.push_back(std::make_unique<Receiver>(settings_.boards[i], store_,
+                                                    landings_from(settings_.boards[i], settings_.routes.incoming),
+                                                    landings_mutex_, block_.peers()[i]));
+  }
+  list_incoming(settings_.routes.incoming);
+}
+
+// A record stays where it is as long as it counts, so that tools never read half of a list.
+void Exchange::list_incoming(const std::vector<Incoming>& incoming) {
+  const std::uint32_t room =
+      static_cast<std::uint32_t>((file_.size() - mirror_block_size(block_.peer_count, 0)) / sizeof(IncomingRecord));
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> all;
+  for (const Incoming& in : incoming) {
+    const std::uint64_t hash = abi::fnv1a64(in.variable.data(), in.variable.size());
+    const auto board = std::find(settings_.boards.begin(), settings_.boards.end(), in.owner);
+    if (board != settings_.boards.end() && store_.find(hash) != nullptr) {
+      all.emplace_back(hash, static_cast<std::uint32_t>(board - settings_.boards.begin()));
     }
-    receivers_.push_back(
-        std::make_unique<Receiver>(settings_.boards[i], store_, from_it, landings_mutex_, block_.peers()[i]));
+  }
+  IncomingRecord* const records = block_.variables();
+  const std::uint32_t before = block_.incoming;
+  for (std::uint32_t i = 0; i < before; ++i) {
+    const auto found =
+        std::find(all.begin(), all.end(), std::pair(records[i].name_hash.load(), records[i].peer.load()));
+    if (found != all.end()) {
+      all.erase(found);
+    } else {
+      records[i].name_hash = 0;
+    }
+  }
+  std::uint32_t next = 0;
+  for (const auto& [hash, peer] : all) {
+    while (next < block_.incoming && records[next].name_hash != 0) {
+      ++next;
+    }
+    if (next == room) {
+      break;  // only tools do not list it
+    }
+    records[next].peer = peer;
+    records[next].name_hash = hash;
+    block_.incoming = std::max(block_.incoming.load(), next + 1);
+  }
+}
+
+void Exchange::follow(const Routes& routes) {
+  for (std::size_t i = settings_.routes.writers.size(); i < routes.writers.size(); ++i) {
+    settings_.routes.writers.push_back(routes.writers[i]);
+  }
+  for (std::size_t i = 0; i < settings_.boards.size(); ++i) {
+    std::vector<Landing*> from_it;
+    {
+      const std::lock_guard<std::mutex> guard(landings_mutex_);
+      from_it = landings_from(settings_.boards[i], routes.incoming);
+    }
+    receivers_[i]->follow(from_it, settings_.network.lease_ns, plane_);
+  }
+  list_incoming(routes.incoming);
+  if (const auto added = sender_->add(routes.outgoing, settings_.routes.writers, board_ns(store_)); !added) {
+    block_.problem.set(added.error().text);
   }
 }
 

@@ -45,6 +45,12 @@ class Exchange {
   Plane::Opened open(Plane& plane);
   void close() noexcept;
 
+  // From now on exactly the incoming variables are read from other boards, and the outgoing ones are sent, too; what
+  // was sent before goes on until the end of the run, whether anyone reads it or not. What both have before and after
+  // is not affected. `routes.writers` begins with the earlier ones. The store holds the variables. Called by the thread
+  // that calls announced().
+  void follow(const Routes& routes);
+
   // A board announced itself, or is gone. This and the following methods are called by one thread at a time.
   void announced(const indurop_wire_Catalogue& catalogue);
   void gone(const std::string& board) noexcept;
@@ -73,6 +79,8 @@ class Exchange {
   void fill_block();
   void make_receivers();
   Landing* landing_of(const std::string& variable);
+  std::vector<Landing*> landings_from(const std::string& board, const std::vector<Incoming>& incoming);
+  void list_incoming(const std::vector<Incoming>& incoming);
   [[nodiscard]] Receiver* receiver_of(const std::string& board) const noexcept;
 
   Settings settings_;

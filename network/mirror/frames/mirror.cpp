@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
+#include <utility>
 
 #include "core/rt/clock.h"
 #include "core/rt/signal_word.h"
@@ -61,12 +63,17 @@ struct Mirror::Impl {
             network_of(settings), [this](dds::Handle participant) { return open(participant); }, [this] { close(); }) {}
 
   Status run();
+  Status launch(const char* name, int fifo_priority, rt::Thread& into, void (Impl::*body)());
+  Status start_senders();
+  void take_routes();
   void end() noexcept;
   void manage();
   Result<void, base::Problem> open(dds::Handle participant);
   void close() noexcept;
   void take_catalogues() noexcept;
   void check_other_releases();
+  void send_prompt() { send_loop(false); }
+  void send_bulk() { send_loop(true); }
   void send_loop(bool bulk) noexcept;
   std::int64_t send(bool bulk) noexcept;
   [[nodiscard]] bool stopping() const noexcept { return stop.load(std::memory_order_acquire); }
@@ -75,9 +82,10 @@ struct Mirror::Impl {
   const Settings& settings;
   MirrorBlock& block;
   DdsPlane plane;
-  std::string refused;  // last reported key problem
-  std::mutex schedule_mutex;
+  std::string refused;    // last reported key problem
+  std::mutex news_mutex;  // of what the node says
   Schedule schedule;
+  std::optional<Routes> routes;  // not yet followed
   dds::Endpoint catalogues;
   dds::OtherReleases others;
   dds::Joining joining;
@@ -87,6 +95,8 @@ struct Mirror::Impl {
   rt::SignalWord wake_sender{};
   rt::SignalWord wake_bulk{};
   rt::Thread manager;
+  bool has_prompt = false;
+  bool has_bulk = false;
   rt::Thread prompt;
   rt::Thread bulk;
 };
@@ -95,37 +105,54 @@ Status Mirror::Impl::run() {
   wake_manager.init(false);
   wake_sender.init(false);
   wake_bulk.init(false);
-  rt::ThreadSettings thread;
-  thread.fifo_priority = settings.network.fifo_priority;
-  thread.stack_bytes = kStackBytes;
-  const auto launch = [&](const char* name, rt::Thread& into, auto body) -> Status {
-    thread.name = name;
-    auto started = rt::Thread::start(thread, [this, body] {
-      // DDS threads inherit their cores from the manager.
-      if (!settings.cores.empty()) {
-        (void)rt::pin_to_cores(settings.cores);
-      }
-      body();
-    });
-    if (!started) {
-      return started.error();
-    }
-    into = std::move(started).value();
-    return {};
-  };
-  if (Status started = launch("irp-mirror-mgr", manager, [this] { manage(); }); !started) {
+  if (Status started = start_senders(); !started) {
     return started;
   }
-  if (exchange->sends()) {
-    if (Status started = launch("irp-mirror", prompt, [this] { send_loop(false); }); !started) {
+  return launch("irp-mirror-mgr", settings.network.fifo_priority, manager, &Impl::manage);
+}
+
+Status Mirror::Impl::launch(const char* name, int fifo_priority, rt::Thread& into, void (Impl::*body)()) {
+  rt::ThreadSettings thread;
+  thread.name = name;
+  thread.fifo_priority = fifo_priority;
+  thread.stack_bytes = kStackBytes;
+  auto started = rt::Thread::start(thread, [this, body] {
+    // DDS threads inherit their cores from the manager.
+    if (!settings.cores.empty()) {
+      (void)rt::pin_to_cores(settings.cores);
+    }
+    (this->*body)();
+  });
+  if (!started) {
+    return started.error();
+  }
+  into = std::move(started).value();
+  return {};
+}
+
+// Those that are needed and do not run yet.
+Status Mirror::Impl::start_senders() {
+  if (exchange->sends() && !std::exchange(has_prompt, true)) {
+    if (Status started = launch("irp-mirror", settings.network.fifo_priority, prompt, &Impl::send_prompt); !started) {
       return started;
     }
   }
-  if (exchange->sends_bulk()) {
-    thread.fifo_priority = 0;
-    return launch("irp-mirror-bulk", bulk, [this] { send_loop(true); });
+  return exchange->sends_bulk() && !std::exchange(has_bulk, true) ? launch("irp-mirror-bulk", 0, bulk, &Impl::send_bulk)
+                                                                  : Status{};
+}
+
+void Mirror::Impl::take_routes() {
+  std::optional<Routes> next;
+  {
+    const std::lock_guard<std::mutex> guard(news_mutex);
+    next = std::exchange(routes, std::nullopt);
   }
-  return {};
+  if (next) {
+    exchange->follow(*next);
+    if (const Status started = start_senders(); !started) {
+      block.problem.set(std::string("cannot start a thread that sends: ") + started.error().where);
+    }
+  }
 }
 
 Result<void, base::Problem> Mirror::Impl::open(dds::Handle participant) {
@@ -157,6 +184,7 @@ void Mirror::Impl::manage() {
   wake_bulk.wake();
   std::int64_t others_due = 0;
   while (!stopping()) {
+    take_routes();
     take_catalogues();
     const std::int64_t now = rt::now_ns();
     if (now >= others_due) {
@@ -165,7 +193,7 @@ void Mirror::Impl::manage() {
     }
     Schedule current;
     {
-      const std::lock_guard<std::mutex> guard(schedule_mutex);
+      const std::lock_guard<std::mutex> guard(news_mutex);
       current = schedule;
     }
     const std::int64_t next = exchange->poll(now, current);
@@ -252,9 +280,9 @@ void Mirror::Impl::end() noexcept {
   wake_manager.wake();
   wake_sender.wake();
   wake_bulk.wake();
+  manager.join();  // it may start the others
   prompt.join();
   bulk.join();
-  manager.join();
   joining.leave();
 }
 
@@ -290,8 +318,16 @@ const MirrorBlock& Mirror::block() const noexcept {
   return impl_->block;
 }
 
+void Mirror::follow(const Routes& routes) {
+  {
+    const std::lock_guard<std::mutex> guard(impl_->news_mutex);
+    impl_->routes = routes;
+  }
+  impl_->wake_manager.wake();
+}
+
 void Mirror::announce(const Schedule& schedule) noexcept {
-  const std::lock_guard<std::mutex> guard(impl_->schedule_mutex);
+  const std::lock_guard<std::mutex> guard(impl_->news_mutex);
   impl_->schedule = schedule;
 }
 

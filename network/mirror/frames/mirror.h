@@ -38,6 +38,9 @@ class Mirror {
   // The status for tools; valid as long as the mirror. Any thread.
   [[nodiscard]] const MirrorBlock& block() const noexcept;
 
+  // Lets the mirror exchange what these say, as Exchange::follow(), soon. Not real-time safe.
+  void follow(const Routes& routes);
+
   // Reports that the schedule has begun, for comparison with other boards.
   void announce(const Schedule& schedule) noexcept;
 

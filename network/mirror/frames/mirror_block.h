@@ -36,7 +36,7 @@ const char* to_text(PeerState state) noexcept;
 // Another board of the plant.
 struct PeerRecord {
   char name[kBoardName];
-  std::uint32_t wanted;  // variables this board reads from it
+  std::atomic<std::uint32_t> wanted;  // variables this board reads from it
   std::atomic<PeerState> state;
   std::atomic<std::uint64_t> session;       // of its current run, see MirrorBlock
   std::atomic<std::int64_t> heard_ns;       // CLOCK_MONOTONIC of its last frame, 0: none
@@ -58,8 +58,8 @@ struct PeerRecord {
 
 // A variable that this board reads from another one. Its age is in the store: abi::confirmed_of().
 struct IncomingRecord {
-  std::uint64_t name_hash;
-  std::uint32_t peer;  // index of its owner
+  std::atomic<std::uint64_t> name_hash;  // 0: no longer read
+  std::atomic<std::uint32_t> peer;       // index of its owner
   std::uint32_t reserved;
 };
 
@@ -70,9 +70,10 @@ struct MirrorBlock {
   char plant[kBoardName];
   char board[kBoardName];
   std::int32_t domain;
-  std::uint32_t outgoing;  // variables sent
-  std::uint32_t parts;     // frames they take
-  std::uint32_t incoming;  // variables received
+  // The three grow when the node gets other routes.
+  std::atomic<std::uint32_t> outgoing;  // variables sent
+  std::atomic<std::uint32_t> parts;     // frames they take
+  std::atomic<std::uint32_t> incoming;  // records of variables received
   // CLOCK_REALTIME at the start of this run; the board with the smallest value has served longest.
   std::atomic<std::uint64_t> session;
   std::atomic<Network> network;
@@ -97,6 +98,9 @@ struct MirrorBlock {
 };
 // NOLINTEND(cppcoreguidelines-pro-type-member-init)
 static_assert(sizeof(MirrorBlock) % alignof(PeerRecord) == 0 && sizeof(PeerRecord) % alignof(IncomingRecord) == 0);
+
+// Records that a node may add while it runs.
+inline constexpr std::size_t kMoreIncoming = 1024;
 
 inline constexpr std::size_t mirror_block_size(std::size_t peers, std::size_t incoming) noexcept {
   return sizeof(MirrorBlock) + peers * sizeof(PeerRecord) + incoming * sizeof(IncomingRecord);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -17,6 +18,9 @@ constexpr std::size_t kMaxParts = 100'000;  // maximum of a valid catalogue
 
 // The schema is read only now: that takes longer than the rest of a catalogue.
 std::string difference(const schema::Variable& mine, const char* their_schema) {
+  if (their_schema == nullptr) {
+    return "another type";
+  }
   const auto theirs = schema::from_json(their_schema);
   const auto* other = theirs ? schema::find_variable(theirs.value(), mine.name) : nullptr;
   return other != nullptr ? schema::first_difference(mine.type, other->type) : "another type";
@@ -27,92 +31,166 @@ std::string difference(const schema::Variable& mine, const char* their_schema) {
 Receiver::Receiver(std::string board, const vars::Store& store, const std::vector<Landing*>& landings,
                    std::mutex& mutex, PeerRecord& record)
     : board_(std::move(board)), store_(store), mutex_(mutex), record_(record) {
-  std::atomic<std::uint64_t>* room = nullptr;
   for (Landing* landing : landings) {
     items_.push_back({landing, landing->add_source()});
-    room = room == nullptr ? landing->lend_room_for_word() : room;
+    lend_room(*landing);
   }
-  word_ = UpdateWord(room);
   record_.wanted = static_cast<std::uint32_t>(items_.size());
 }
 
-Result<std::vector<Receiver::Inbox>, base::Problem> Receiver::match(const indurop_wire_Catalogue& catalogue) const {
-  std::vector<Inbox> inboxes;
-  std::string problem;
+void Receiver::lend_room(Landing& landing) {
+  if (std::atomic<std::uint64_t>* const room = has_room_ ? nullptr : landing.lend_room_for_word(); room != nullptr) {
+    word_ = UpdateWord(room);
+    has_room_ = true;
+  }
+}
+
+Receiver::Match Receiver::match(const char* schema) const {
+  Match all;
   std::size_t more = 0;
-  const auto complain = [&](const auto& text) {
-    if (problem.empty()) {
-      problem = text();
+  const auto complain = [&](const Item& item, const auto& text) {
+    all.agrees = all.agrees && !item.at_start;
+    if (all.problem.empty()) {
+      all.problem = text();
     } else {
       ++more;
     }
   };
-  const indurop_wire_CatalogueEntry* const first = catalogue.entries._buffer;
-  const indurop_wire_CatalogueEntry* const last = first + catalogue.entries._length;
-  for (const auto* entry = first; entry != last; ++entry) {
-    if (entry->part >= inboxes.size() && entry->part < kMaxParts) {
-      inboxes.resize(entry->part + 1);
+  for (const Offer& offer : offers_) {
+    if (offer.part >= all.inboxes.size() && offer.part < kMaxParts) {
+      all.inboxes.resize(offer.part + 1);
     }
   }
   for (std::uint32_t i = 0; i < items_.size(); ++i) {
-    const schema::Variable& mine = items_[i].landing->variable();
-    const auto* found = std::find_if(first, last, [&](const auto& entry) { return mine.name == entry.name; });
-    if (found == last) {
-      complain([&] { return fmt::format("board {} does not send {}: it runs another deployment", board_, mine.name); });
+    const Item& item = items_[i];
+    const schema::Variable& mine = item.landing->variable();
+    if (!item.is_read) {
       continue;
     }
-    if (found->type_hash != mine.type_hash || found->size != items_[i].landing->entry().value_size) {
-      complain([&] {
+    const auto found = std::find_if(offers_.begin(), offers_.end(),
+                                    [hash = mine.name_hash()](const Offer& offer) { return offer.name_hash == hash; });
+    if (found == offers_.end()) {
+      complain(item,
+               [&] { return fmt::format("board {} does not send {}: it runs another deployment", board_, mine.name); });
+      continue;
+    }
+    if (found->type_hash != mine.type_hash || found->size != item.landing->entry().value_size) {
+      complain(item, [&] {
         return fmt::format("{} differs between the boards: {} (here / on {}); build both from the same .glb", mine.name,
-                           difference(mine, catalogue.schema), board_);
+                           difference(mine, schema), board_);
       });
       continue;
     }
     if (found->part >= kMaxParts || found->offset > std::numeric_limits<std::uint32_t>::max() - found->size ||
         found->stream >= kStreams) {
-      complain([&] { return fmt::format("the catalogue of board {} is damaged", board_); });
+      complain(item, [&] { return fmt::format("the catalogue of board {} is damaged", board_); });
       continue;
     }
-    Inbox& inbox = inboxes[found->part];
+    Inbox& inbox = all.inboxes[found->part];
     inbox.stream = static_cast<Stream>(found->stream);
     inbox.size = std::max(inbox.size, found->offset + found->size);
     inbox.content.push_back({i, found->offset});
   }
-  if (!problem.empty()) {
-    return base::Problem{more > 0 ? fmt::format("{} (and {} more)", problem, more) : problem};
+  if (more > 0) {
+    all.problem += fmt::format(" (and {} more)", more);
   }
-  return inboxes;
+  if (!all.agrees) {
+    all.inboxes.clear();
+  }
+  return all;
 }
 
 void Receiver::announced(const indurop_wire_Catalogue& catalogue, Plane& plane) {
   if (std::exchange(other_release_, false)) {
     record_.problem.set({});
   }
-  if (catalogue.session == session_ && catalogue.layout == layout_) {
+  const bool goes_on = catalogue.session == session_ && catalogue.layout == layout_;
+  if (goes_on && catalogue.entries._length == offers_.size()) {
     record_.state.store(matched_ ? PeerState::Alive : PeerState::Mismatched, std::memory_order_release);
     return;
   }
-  close();
-  auto matched = match(catalogue);
-  record_.problem.set(matched ? std::string{} : matched.error().text);
+  if (!goes_on) {
+    close();
+  }
+  offers_.clear();
+  for (std::uint32_t i = 0; i < catalogue.entries._length; ++i) {
+    const indurop_wire_CatalogueEntry& entry = catalogue.entries._buffer[i];
+    offers_.push_back({abi::fnv1a64(entry.name, std::strlen(entry.name)), entry.type_hash, entry.part, entry.offset,
+                       entry.size, entry.stream});
+  }
   {
     const std::lock_guard<std::mutex> guard(mutex_);
-    session_ = catalogue.session;
-    layout_ = catalogue.layout;
-    matched_ = matched.ok();
-    inboxes_ = matched ? std::move(*matched) : std::vector<Inbox>{};
-    std::vector<std::uint32_t> sizes;
-    for (const Inbox& inbox : inboxes_) {
-      sizes.push_back(inbox.size);
+    if (!goes_on) {
+      session_ = catalogue.session;
+      layout_ = catalogue.layout;
+      inboxes_.clear();
+      staging_.reset({});
+      for (Port& port : ports_) {
+        port.newest_update = 0;
+      }
     }
-    staging_.reset(sizes);
-    for (Port& port : ports_) {
-      port.newest_update = 0;
-    }
+    read_again(catalogue.schema);
   }
   record_.session.store(session_, std::memory_order_relaxed);
   record_.state.store(matched_ ? PeerState::Alive : PeerState::Mismatched, std::memory_order_release);
   subscribe(plane);
+}
+
+void Receiver::follow(const std::vector<Landing*>& landings, std::int64_t patience_ns, Plane* plane) {
+  {
+    const std::lock_guard<std::mutex> guard(mutex_);
+    const std::int64_t now = board_ns(store_);
+    for (Item& item : items_) {
+      const bool wanted = std::find(landings.begin(), landings.end(), item.landing) != landings.end();
+      if (item.is_read && !wanted) {
+        item.landing->leave(item.source, now, record_);
+      } else if (!item.is_read && wanted) {
+        item.landing->enter(item.source, now + patience_ns);
+      }
+      item.is_read = wanted;
+    }
+    for (Landing* const landing : landings) {
+      const auto known =
+          std::find_if(items_.begin(), items_.end(), [landing](const Item& item) { return item.landing == landing; });
+      if (known == items_.end()) {
+        items_.push_back({landing, landing->add_source(now + patience_ns), true, false});
+        lend_room(*landing);
+      }
+    }
+    record_.wanted = static_cast<std::uint32_t>(landings.size());
+    if (session_ != 0) {
+      read_again(nullptr);
+      for (PeerState state : {PeerState::Alive, PeerState::Mismatched}) {
+        record_.state.compare_exchange_strong(state, matched_ ? PeerState::Alive : PeerState::Mismatched);
+      }
+    }
+  }
+  if (session_ != 0 && plane != nullptr) {
+    subscribe(*plane);
+  }
+}
+
+// What waits for the rest of its update is written as it is; parts that go on keep what is known of them.
+void Receiver::read_again(const char* schema) {
+  if (staging_.has_waiting()) {
+    word_.begin();
+    staging_.take([this](std::uint32_t part, std::span<const std::uint8_t> data) {
+      deliver(inboxes_[part], data, &word_, board_ns(store_));
+    });
+    word_.end(false);
+  }
+  Match matched = match(schema);
+  matched_ = matched.agrees;
+  for (std::size_t i = 0; i < std::min(inboxes_.size(), matched.inboxes.size()); ++i) {
+    matched.inboxes[i].update = inboxes_[i].update;
+  }
+  inboxes_ = std::move(matched.inboxes);
+  std::vector<std::uint32_t> sizes;
+  for (const Inbox& inbox : inboxes_) {
+    sizes.push_back(inbox.size);
+  }
+  staging_.resize(sizes);
+  record_.problem.set(matched.problem);
 }
 
 // Reads the streams that have what this board reads: each costs a reader that all boards discover.

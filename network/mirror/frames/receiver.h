@@ -38,8 +38,14 @@ class Receiver final : public FrameListener {
   [[nodiscard]] const std::string& board() const noexcept { return board_; }
 
   // The board announced itself (again). Compares its variables with this board's and, if they agree, reads its frames
-  // from now on; last values arrive at once. Called by the mirror's manager only.
+  // from now on; last values arrive at once. If it only sends more than before, what it sent goes on. Called by the
+  // mirror's manager only.
   void announced(const indurop_wire_Catalogue& catalogue, Plane& plane);
+  // From now on these are read from the board, and no others; what was read before and is among them goes on. Those
+  // that were not read at the start are read as soon as the board sends them; that it does not is no disagreement, as
+  // it may get them later. They have their fallback after `patience_ns`. `plane` null: the network is not open yet.
+  // Called by the mirror's manager only.
+  void follow(const std::vector<Landing*>& landings, std::int64_t patience_ns, Plane* plane);
   // The board fell silent: its values are no longer confirmed. This and alive(): any thread.
   void silent() noexcept;
   // This run of the board is alive. It seemed silent if it was busy for longer than the lease, and does not announce
@@ -55,6 +61,16 @@ class Receiver final : public FrameListener {
   struct Item {
     Landing* landing = nullptr;
     std::size_t source = 0;  // this board's number in the landing
+    bool is_read = true;
+    bool at_start = true;
+  };
+  struct Offer {  // of the catalogue
+    std::uint64_t name_hash = 0;
+    std::uint64_t type_hash = 0;
+    std::uint32_t part = 0;
+    std::uint32_t offset = 0;
+    std::uint32_t size = 0;
+    std::uint8_t stream = 0;
   };
   struct Arrival {  // where the board put an item
     std::uint32_t item = 0;
@@ -77,9 +93,15 @@ class Receiver final : public FrameListener {
   void apply_alone(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept;
   void apply_together(const indurop_wire_Frame& frame, std::int64_t now_ns) noexcept;
   void deliver(const Inbox& inbox, std::span<const std::uint8_t> data, UpdateWord* word, std::int64_t now_ns) noexcept;
-  // Returns the positions of the variables that are read from the board. Errors: its variables differ from what this
-  // board knows.
-  Result<std::vector<Inbox>, base::Problem> match(const indurop_wire_Catalogue& catalogue) const;
+  struct Match {
+    std::vector<Inbox> inboxes;  // positions of the variables that are read from the board
+    std::string problem;
+    bool agrees = true;
+  };
+  // `schema`: the board's; null: not known any more.
+  [[nodiscard]] Match match(const char* schema) const;
+  void read_again(const char* schema);
+  void lend_room(Landing& landing);
 
   std::string board_;
   const vars::Store& store_;
@@ -90,9 +112,11 @@ class Receiver final : public FrameListener {
   std::uint64_t layout_ = 0;
   bool other_release_ = false;
   bool matched_ = false;        // this session's variables agree with ours
+  std::vector<Offer> offers_;   // of this session
   std::vector<Inbox> inboxes_;  // by part, for all parts of the board
   Staging staging_;
   UpdateWord word_;
+  bool has_room_ = false;  // for the word
   std::array<Port, kStreams> ports_;
 };
 

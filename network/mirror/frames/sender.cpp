@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "network/dds/lent.h"
 #include "network/mirror/frames/board_time.h"
@@ -12,6 +13,7 @@ namespace indurop::mirror {
 namespace {
 
 constexpr const char* kRelease = INDUROP_VERSION;
+constexpr std::int64_t kCatalogueAheadNs = 200'000'000;  // a lost catalogue is repeated within this
 
 }  // namespace
 
@@ -20,63 +22,106 @@ Sender::Sender(vars::Store& store, const Settings& settings, std::uint64_t sessi
       block_(block),
       session_(session),
       board_(settings.network.board),
-      collectors_{ChangeCollector(store), ChangeCollector(store)} {
+      schema_text_(schema::to_json({})),
+      sides_{Side(store), Side(store)} {
+  const std::string places = place(settings.routes.outgoing, settings.routes.writers, 0);
+  const std::string layout_text = schema_text_ + places;
+  layout_ = abi::fnv1a64(layout_text.data(), layout_text.size());
+  for (Side& side : sides_) {
+    (void)side.collector.collect(0);
+  }
+}
+
+bool Sender::sends(const std::string& variable) const noexcept {
+  return std::any_of(sides_.begin(), sides_.end(), [&variable](const Side& side) {
+    return std::any_of(side.parts.begin(), side.parts.end(), [&variable](const auto& out) {
+      return std::any_of(out->content.begin(), out->content.end(),
+                         [&variable](const Content& one) { return one.name == variable; });
+    });
+  });
+}
+
+std::string Sender::place(std::span<const Outgoing> outgoing, const std::deque<Writers>& writers,
+                          std::int64_t not_before_ns) {
   std::vector<Parcel> parcels;
-  std::vector<const vars::DirectoryEntry*> entries;
-  std::vector<const Writers*> writers;
+  std::vector<Content> contents;
+  std::vector<const Writers*> written_by;
   schema::Schema types;
-  for (const Outgoing& out : settings.outgoing) {
+  if (auto known = schema::from_json(schema_text_); known) {
+    types = std::move(known).value();
+  }
+  for (const Outgoing& out : outgoing) {
     const auto* entry = store_.find(abi::fnv1a64(out.variable.data(), out.variable.size()));
-    if (entry == nullptr) {
+    if (entry == nullptr || sends(out.variable)) {
       continue;
     }
     const schema::Variable& variable = store_.schema().variables[entry->schema_index];
     types.variables.push_back(variable);
     parcels.push_back({entry->value_size, out.every_ns, variable.maxage_ns, out.best_effort});
-    entries.push_back(entry);
-    writers.push_back(out.writers < 0 ? nullptr : &settings.writers[static_cast<std::size_t>(out.writers)]);
+    contents.push_back({*entry, variable.name});
+    written_by.push_back(out.writers < 0 ? nullptr : &writers[static_cast<std::size_t>(out.writers)]);
   }
   schema_text_ = schema::to_json(types);
-  std::string layout_text = schema_text_;
-  std::vector<Part> parts = pack(parcels);
-  parts_.reserve(parts.size());  // the collectors hold pointers to them
-  for (Part& part : parts) {
-    Outbox& out = parts_.emplace_back();
-    out.image.resize(part.size);
+  std::string places;
+  for (Part& part : pack(parcels)) {
     const bool bulk = part.stream == Stream::Bulk;
+    auto out = std::make_unique<Outbox>();
+    out->number = part_count_++;
+    out->not_before_ns = not_before_ns;
+    out->image.resize(part.size);
+    Side& side = sides_[bulk ? 1 : 0];
+    const std::lock_guard<std::mutex> guard(side.mutex);
     for (const Placed& placed : part.content) {
-      const auto* entry = entries[placed.parcel];
-      out.content.push_back(entry);
-      collectors_[bulk ? 1 : 0].add(*entry, out.image.data() + placed.offset, &out.dirty,
-                                    bulk ? nullptr : writers[placed.parcel]);
-      layout_text += fmt::format("{}:{}:{}", parts_.size() - 1, placed.offset, entry->value_size);
+      const Content& content = out->content.emplace_back(std::move(contents[placed.parcel]));
+      side.collector.add(content.entry, out->image.data() + placed.offset, &out->dirty,
+                         bulk ? nullptr : written_by[placed.parcel]);
+      places += fmt::format("{}:{}:{}", out->number, placed.offset, content.entry.value_size);
     }
-    out.part = std::move(part);
+    out->part = std::move(part);
+    side.parts.push_back(std::move(out));
   }
-  layout_ = abi::fnv1a64(layout_text.data(), layout_text.size());
-  block_.outgoing = static_cast<std::uint32_t>(entries.size());
-  block_.parts = static_cast<std::uint32_t>(parts_.size());
-  for (ChangeCollector& collector : collectors_) {
-    (void)collector.collect(0);
-  }
+  block_.outgoing += static_cast<std::uint32_t>(parcels.size());
+  block_.parts = part_count_;
+  return places;
 }
 
-bool Sender::has_bulk() const noexcept {
-  return std::any_of(parts_.begin(), parts_.end(), [](const Outbox& out) { return out.part.stream == Stream::Bulk; });
+Plane::Opened Sender::offer() {
+  for (const Side& side : sides_) {
+    for (const auto& out : side.parts) {
+      if (auto offered = plane_->offer_frames(out->part.stream); !offered) {
+        return offered;
+      }
+    }
+  }
+  return {};
 }
 
 Plane::Opened Sender::open(Plane& plane) {
   plane_ = &plane;
-  for (const Outbox& out : parts_) {
-    if (auto offered = plane.offer_frames(out.part.stream); !offered) {
-      return offered;
-    }
+  if (auto offered = offer(); !offered) {
+    return offered;
   }
   if (auto offered = plane.offer_catalogue(); !offered) {
     return offered;
   }
-  for (Outbox& out : parts_) {
-    out.dirty = true;
+  for (Side& side : sides_) {
+    const std::lock_guard<std::mutex> guard(side.mutex);
+    for (const auto& out : side.parts) {
+      out->dirty = true;
+    }
+  }
+  publish_catalogue();
+  return {};
+}
+
+Plane::Opened Sender::add(std::span<const Outgoing> outgoing, const std::deque<Writers>& writers, std::int64_t now_ns) {
+  const std::uint32_t before = part_count_;
+  (void)place(outgoing, writers, now_ns + kCatalogueAheadNs);
+  if (part_count_ == before || plane_ == nullptr) {
+    return {};
+  }
+  if (auto offered = offer(); !offered) {
+    return offered;
   }
   publish_catalogue();
   return {};
@@ -84,13 +129,13 @@ Plane::Opened Sender::open(Plane& plane) {
 
 void Sender::publish_catalogue() noexcept {
   std::vector<indurop_wire_CatalogueEntry> entries;
-  for (std::uint32_t number = 0; number < parts_.size(); ++number) {
-    const Outbox& out = parts_[number];
-    for (std::size_t i = 0; i < out.content.size(); ++i) {
-      const vars::DirectoryEntry& entry = *out.content[i];
-      const std::string& name = store_.schema().variables[entry.schema_index].name;
-      entries.push_back({dds::lent(name), entry.type_hash, number, out.part.content[i].offset, entry.value_size,
-                         static_cast<std::uint8_t>(out.part.stream)});
+  for (const Side& side : sides_) {
+    for (const auto& out : side.parts) {
+      for (std::size_t i = 0; i < out->content.size(); ++i) {
+        const Content& one = out->content[i];
+        entries.push_back({dds::lent(one.name), one.entry.type_hash, out->number, out->part.content[i].offset,
+                           one.entry.value_size, static_cast<std::uint8_t>(out->part.stream)});
+      }
     }
   }
   indurop_wire_Catalogue sample{};
@@ -107,45 +152,44 @@ void Sender::publish_catalogue() noexcept {
 }
 
 // Chooses what is part of the next update. Returns false if there is nothing.
-bool Sender::choose(std::int64_t now_ns, bool bulk) noexcept {
-  const std::uint64_t update = updates_[bulk ? 1 : 0] + 1;
+bool Sender::choose(Side& side, std::int64_t now_ns) noexcept {
+  const std::uint64_t update = side.updates + 1;
   bool any = false;
-  for (Outbox& out : parts_) {
-    if ((out.part.stream == Stream::Bulk) != bulk) {
-      continue;
-    }
-    const std::int64_t since = now_ns - out.sent_ns;
-    out.due = since >= out.part.every_ns && (out.dirty || since >= out.part.keepalive_ns);
-    if (out.due) {
+  for (const auto& out : side.parts) {
+    const std::int64_t since = now_ns - out->sent_ns;
+    out->due =
+        now_ns >= out->not_before_ns && since >= out->part.every_ns && (out->dirty || since >= out->part.keepalive_ns);
+    if (out->due) {
       any = true;
-      if (out.together()) {
-        update_sum_ += update - out.update;
+      if (out->together()) {
+        update_sum_ += update - out->update;
       }
-      out.update = update;
+      out->update = update;
     }
   }
   return any;
 }
 
 bool Sender::cycle(std::int64_t now_ns, std::uint64_t tick, bool bulk) noexcept {
-  const bool poll_again = collectors_[bulk ? 1 : 0].collect(now_ns);
-  if (!choose(now_ns, bulk)) {
+  Side& side = sides_[bulk ? 1 : 0];
+  const std::lock_guard<std::mutex> guard(side.mutex);
+  const bool poll_again = side.collector.collect(now_ns);
+  if (!choose(side, now_ns)) {
     return poll_again;
   }
-  ++updates_[bulk ? 1 : 0];
+  ++side.updates;
   block_.updates.fetch_add(1, std::memory_order_relaxed);
-  for (std::uint32_t number = 0; number < parts_.size(); ++number) {
-    if ((parts_[number].part.stream == Stream::Bulk) == bulk && parts_[number].due) {
-      send(number, tick, now_ns);
+  for (const auto& out : side.parts) {
+    if (out->due) {
+      send(*out, tick, now_ns);
     }
   }
   return poll_again;
 }
 
-void Sender::send(std::uint32_t number, std::uint64_t tick, std::int64_t now_ns) noexcept {
-  Outbox& out = parts_[number];
+void Sender::send(Outbox& out, std::uint64_t tick, std::int64_t now_ns) noexcept {
   indurop_wire_Frame frame{};
-  frame.part = number;
+  frame.part = out.number;
   frame.layout = static_cast<std::uint32_t>(layout_);
   frame.session = session_;
   frame.update = out.update;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ struct Outgoing {
   std::string variable;       // full name
   std::int64_t every_ns = 0;  // sent at most this often, 0: with every change
   bool best_effort = false;   // samples lost in the network are not repeated
-  int writers = -1;           // index into Settings::writers; -1: any process may write it at any time
+  int writers = -1;           // index into Routes::writers; -1: any process may write it at any time
 };
 
 // A variable of another board that modules of this one read.
@@ -35,15 +36,20 @@ struct Incoming {
   std::string owner;  // board
 };
 
+// What a board exchanges with the others. A board that runs may get other ones.
+struct Routes {
+  std::deque<Writers> writers;
+  std::vector<Outgoing> outgoing;
+  std::vector<Incoming> incoming;
+};
+
 struct Settings {
   dds::NetworkSettings network;  // its board is the name by which other boards know this one
   std::string plant;
   bool spin = false;                // the sender may be awake early, on a core that no module uses
   std::vector<int> cores;           // cores the mirror's threads may run on; empty: all
   std::vector<std::string> boards;  // all other boards of the plant, for the report
-  std::vector<Writers> writers;
-  std::vector<Outgoing> outgoing;
-  std::vector<Incoming> incoming;
+  Routes routes;                    // at the start
 };
 
 }  // namespace indurop::mirror

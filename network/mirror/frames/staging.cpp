@@ -6,14 +6,19 @@
 namespace indurop::mirror {
 
 void Staging::reset(std::span<const std::uint32_t> sizes) {
-  parts_.assign(sizes.size(), {});
+  parts_.clear();
+  waiting_.clear();
+  resize(sizes);
+  sum_ = newest_ = newest_sum_ = 0;
+  since_ns_ = 0;
+}
+
+void Staging::resize(std::span<const std::uint32_t> sizes) {
+  parts_.resize(sizes.size());
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     parts_[i].data.resize(sizes[i]);
   }
-  waiting_.clear();
   waiting_.reserve(sizes.size());
-  sum_ = newest_ = newest_sum_ = 0;
-  since_ns_ = 0;
 }
 
 Staging::Verdict Staging::arrived(std::uint32_t number, std::uint64_t update, std::uint64_t sum,

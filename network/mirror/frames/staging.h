@@ -23,12 +23,15 @@ class Staging {
 
   // Starts the next session of a board; no frames wait. `sizes`: bytes required of each part, 0: part not used.
   void reset(std::span<const std::uint32_t> sizes);
+  // The board has more parts, or other bytes of its parts are required. No frames wait: call take() before.
+  void resize(std::span<const std::uint32_t> sizes);
   // A frame of update number `update` arrived. `sum`: of the numbers of the last updates of all parts, this update
   // included. A part is sent whole whenever something in it has changed, so equal sums mean that nothing is missing: no
   // number held locally can be larger than the sender's.
   Verdict arrived(std::uint32_t number, std::uint64_t update, std::uint64_t sum, std::span<const std::uint8_t> data,
                   std::int64_t now_ns);
 
+  [[nodiscard]] bool has_waiting() const noexcept { return !waiting_.empty(); }
   // Calls `use(part, data)` for all waiting frames; none wait afterwards.
   template <class Use>
   void take(Use use) {

@@ -68,11 +68,11 @@ indurop::mirror::Settings read_settings(int argc, char** argv) {
   settings.network.lease_ns = std::atoll(argv[5]) * 1'000'000;
   settings.boards = split(argv[7]);
   for (const std::string& name : split(argv[8])) {
-    settings.outgoing.push_back({name, 0, name.ends_with("loose")});
+    settings.routes.outgoing.push_back({name, 0, name.ends_with("loose")});
   }
   for (const std::string& name : split(argv[9])) {
     const std::size_t at = name.find('@');
-    settings.incoming.push_back({name.substr(0, at), name.substr(at + 1)});
+    settings.routes.incoming.push_back({name.substr(0, at), name.substr(at + 1)});
   }
   if (argc == 11) {
     const std::string keys = argv[10];
@@ -101,11 +101,11 @@ int main(int argc, char** argv) {
   }
   indurop::mirror::Settings settings = read_settings(argc, argv);
   std::atomic<std::uint64_t> tick{7};
-  Ticking module(store.value(), settings.outgoing);
-  const bool ticking = std::string(argv[6]) == "ticking" && !settings.outgoing.empty();
+  Ticking module(store.value(), settings.routes.outgoing);
+  const bool ticking = std::string(argv[6]) == "ticking" && !settings.routes.outgoing.empty();
   if (ticking) {
-    settings.writers.push_back({[&] { return module.runs(); }, true});
-    for (auto& out : settings.outgoing) {
+    settings.routes.writers.push_back({[&] { return module.runs(); }, true});
+    for (auto& out : settings.routes.outgoing) {
       out.writers = 0;
     }
     module.run(tick);

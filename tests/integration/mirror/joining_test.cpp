@@ -103,7 +103,7 @@ TEST_F(JoiningTest, A_sender_that_was_closed_sends_in_the_next_network) {
   ASSERT_TRUE(store.ok());
   const auto block = std::make_unique<MirrorBlock>();
   Settings settings = on_loopback();
-  settings.outgoing = {{"t::count"}, {"t::large"}};
+  settings.routes.outgoing = {{"t::count"}, {"t::large"}};
   Sender sut(store.value(), settings, 1, *block);
   DdsPlane plane(settings);
   for (int i = 0; i < 2; ++i) {
