@@ -9,7 +9,8 @@ root=$top/build-arm64-root
 # Tools are those of amd64. What is linked comes from the packages' control file, for arm64.
 tools="crossbuild-essential-arm64 cmake ninja-build ccache python3 debhelper rsync fakeroot lintian qemu-user qemu-system-arm cpio"
 kernel=linux-image-6.12-rt-arm64 # names the newest one
-tested="libgtest-dev:arm64 libgmock-dev:arm64 liborocos-kdl-dev:arm64 busybox-static:arm64"
+boost="libboost-filesystem-dev:arm64 libboost-serialization-dev:arm64 libboost-system-dev:arm64" # libompl-dev names their files
+tested="libgtest-dev:arm64 libgmock-dev:arm64 liborocos-kdl-dev:arm64 libompl-dev:arm64 $boost busybox-static:arm64"
 control=$top/cmake/packaging/debian/control
 
 die() {
@@ -45,7 +46,7 @@ make_root() {
 add_packages() {
   cp /etc/resolv.conf "$root/etc/resolv.conf"
   # shellcheck disable=SC2016 # the text is for the shell inside
-  enter sh -c 'apt-get -qq update && apt-get -qq install -y '"$tools $tested"' && apt-get -qq build-dep -y -a arm64 ./cmake/packaging &&
+  enter sh -c 'apt-get -qq update && apt-get -qq install -y '"$tools $tested"' && apt-get -qq build-dep -y -P cross -a arm64 ./cmake/packaging &&
     cd /var/tmp && apt-get -qq download $(apt-cache depends '"$kernel"':arm64 | sed -n "s/.*Depends: //p") &&
     rm -rf /kernel && dpkg-deb -x linux-image-*.deb /kernel && rm linux-image-*.deb && apt-get clean' >"$root/var/log/added" 2>&1 </dev/null || {
     tail -n 20 "$root/var/log/added" >&2

@@ -13,7 +13,9 @@ version=$(sed -n 's/^project(InduRoP VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 jobs=${JOBS:-$(nproc)}
 arch=${ARCH:-$(dpkg --print-architecture)}
 inside=
-[ "$arch" = "$(dpkg --print-architecture)" ] || inside=$top/cmake/arm64_root.sh
+# What cannot be cross-compiled (ROS 1 in Debian) is left out.
+profile=
+[ "$arch" = "$(dpkg --print-architecture)" ] || { inside=$top/cmake/arm64_root.sh profile=cross; }
 
 [ -e $opcua/package.json ] || { echo "make deb: there is no indurop-opcua in $opcua; it needs nodejs and npm: make builds it" >&2; exit 1; }
 [ -e $page/index.html ] || { echo "make deb: there is no page in $page; it needs nodejs and npm: make demo builds it" >&2; exit 1; }
@@ -44,7 +46,7 @@ rm -rf "$fresh"
 
 rm -rf "$out"/*.deb "$out"/*.changes "$out"/*.buildinfo "$out/dbgsym"
 cd "$tree"
-$inside env LC_ALL=C.UTF-8 DEB_BUILD_OPTIONS="parallel=$jobs nocheck ${DEB_BUILD_OPTIONS:-}" dpkg-buildpackage -b -us -uc -a "$arch"
+$inside env LC_ALL=C.UTF-8 DEB_BUILD_OPTIONS="parallel=$jobs nocheck ${DEB_BUILD_OPTIONS:-}" DEB_BUILD_PROFILES=$profile dpkg-buildpackage -b -us -uc -a "$arch"
 if $inside sh -c 'command -v lintian' >/dev/null; then
   $inside lintian --fail-on error,warning --allow-root "$out"/indurop_"$version"_*.changes
 fi
