@@ -13,6 +13,7 @@
 
 #include "core/base/exit_code.h"
 #include "core/base/program_folder.h"
+#include "node/exchange/module_trial.h"
 #include "node/modules/trampoline.h"
 #include "node/run/node.h"
 #include "node/run/options.h"
@@ -40,6 +41,9 @@ int become_agent(char** argv) {
 int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == indurop::node::kTrampolineFlag) {
     return indurop::node::become_module(argc, argv);
+  }
+  if (argc > 1 && std::string_view(argv[1]) == indurop::node::kTrialFlag) {
+    indurop::node::load_on_trial(argc, argv);
   }
   if (std::any_of(argv, argv + argc, [](const char* word) { return std::string_view(word) == "--agent"; })) {
     return become_agent(argv);

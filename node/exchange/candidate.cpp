@@ -9,6 +9,7 @@
 
 #include "config/check/check_parts.h"
 #include "core/keys/digest.h"
+#include "node/exchange/module_trial.h"
 #include "node/modules/kept_versions.h"
 #include "store/runtime/host.h"
 
@@ -178,6 +179,11 @@ Candidate make_candidate(const CandidateTask& task) {
   Candidate candidate;
   const auto before = keys::digest_of_file(task.file);
   candidate.needs_restart = CandidateCheck(task, candidate).run();
+  if (candidate.errors.empty() && task.try_first) {
+    if (const std::string failed = try_module(task.file); !failed.empty()) {
+      candidate.errors.push_back(fmt::format("{}: error: {}", task.file.string(), failed));
+    }
+  }
   if (candidate.errors.empty()) {
     make_places(task, candidate);
   }

@@ -38,6 +38,7 @@ struct CandidateTask {
   std::span<const ModuleLibrary> others = {};
   std::span<const ConfiguredUses> configured = {};  // of the same
   std::string keep_for = {};  // node in whose state the files of both versions are kept; empty: they are not
+  bool try_first = false;     // see try_module()
 };
 
 struct Candidate {

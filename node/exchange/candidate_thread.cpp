@@ -11,6 +11,7 @@ constexpr std::size_t kCandidateStack = std::size_t{8} * 1024 * 1024;
 }  // namespace
 
 CandidateThread::CandidateThread(const CandidateTask& task) : task_(task) {
+  task_.try_first = true;
   auto started = rt::Thread::start({"irp-reload", 0, -1, kCandidateStack}, [this] {
     candidate_ = make_candidate(task_);
     done_.store(true, std::memory_order_release);

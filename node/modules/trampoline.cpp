@@ -62,6 +62,7 @@ Result<pid_t> launch(const Launch& what) {
                       .program = "/proc/self/exe",
                       .environment = environment_for(what),
                       .group = base::Launch::Group::Own,  // Ctrl-C in the terminal only reaches the node
+                      .output = what.output,
                       .fresh_signals = true});
 }
 

@@ -19,6 +19,7 @@ struct Launch {
   std::string node;    // INDUROP_NODE
   std::string module;  // INDUROP_MODULE
   int core = -1;
+  int output = -1;  // an open file for what it prints; -1: where the node prints
 };
 
 // Starts the module; when this returns the process exists, but not necessarily its program. Errors: System.

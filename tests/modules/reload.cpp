@@ -98,6 +98,19 @@ INDUROP_IMPLEMENT(nt::add, [](double a, double b) { return a + b; })
 namespace {
 [[maybe_unused]] const int kNever = (std::abort(), 0);
 }
+#elif defined(RELOAD_QUITS)
+namespace {
+[[maybe_unused]] const int kNever = (std::exit(0), 0);
+}
+#elif defined(RELOAD_HANGS)
+namespace {
+[[maybe_unused]] const int kNever = [] {
+  for (;;) {
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+  }
+  return 0;
+}();
+}
 #elif defined(RELOAD_THREADS)
 void beginThread() {
   std::thread([] {}).detach();

@@ -2,9 +2,12 @@
 // indurop reload: the code of a module is exchanged while the node runs.
 
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "reload_fixture.h"
 
@@ -205,6 +208,52 @@ TEST_F(Reload, A_start_that_takes_long_or_fails_does_not_touch_the_running_versi
   EXPECT_CONTAINS(done.err, "start() failed: exception: no ink");
   expect_all_counted();
   EXPECT_EQ(module("counter").faults.load(), 0U);
+}
+
+TEST_F(Reload, A_file_that_cannot_be_loaded_without_harm_is_refused) {
+  start_counting();
+  for (const auto& [version, text] :
+       {std::pair{"dies", "ended by signal 6 (Aborted)"},
+        std::pair{"quits", "ended with exit code 0: one of its static constructors calls"},
+        std::pair{"hangs", "does not end within 10 s"}}) {
+    for (const bool dry : {true, false}) {
+      if (dry && std::string_view(version) == "hangs") {
+        continue;  // it takes its time
+      }
+      std::vector<std::string> words = {"counter", built(version)};
+      if (dry) {
+        words.emplace_back("--dry-run");
+      }
+      const Outcome done = reload(words);
+      EXPECT_EQ(done.code, 4) << version << done.err;
+      EXPECT_CONTAINS(done.err, text);
+      EXPECT_EQ(module("counter").version.load(), 1U);
+    }
+  }
+  expect_all_counted();
+}
+
+// Most bits change nothing that is noticed when the file is loaded: then it is accepted.
+TEST_F(Reload, No_file_with_a_damaged_bit_ends_the_node) {
+  start_counting();
+  std::ifstream in(built("other"), std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::random_device device;
+  const unsigned seed = device();
+  std::mt19937 random(seed);
+  int refused = 0;
+  constexpr int kFiles = 40;
+  for (int i = 0; i < kFiles; ++i) {
+    std::string damaged = whole;
+    const std::size_t place = std::uniform_int_distribution<std::size_t>(0, whole.size() - 1)(random);
+    damaged[place] = static_cast<char>(damaged[place] ^ (1 << std::uniform_int_distribution<int>(0, 7)(random)));
+    const std::string file = folder() / fmt::format("damaged_{}.so", i);
+    std::ofstream(file, std::ios::binary) << damaged;
+    refused += reload({"counter", file, "--dry-run"}).code == 0 ? 0 : 1;
+    ASSERT_EQ(::kill(run()->node_pid.load(), 0), 0) << "seed " << seed << ", file " << i;
+    ASSERT_TRUE(runs_reach("counter", module("counter").runs.load() + 1)) << "seed " << seed << ", file " << i;
+  }
+  std::printf("seed %u: %d of %d files were refused\n", seed, refused, kFiles);
 }
 
 TEST_F(Reload, State_that_functions_copy_or_that_is_large_is_copied_between_two_runs) {

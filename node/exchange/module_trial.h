@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// A process of its own loads a file before a node does: a damaged file, or static constructors that crash, throw, end
+// the process or never return, would end the node.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace indurop::node {
+
+// Loads `file` in another process, which ends without destructors. Returns what went wrong there; empty: nothing that
+// loading it in this process does not report. Waits for 10 s at most. Not real-time safe; only in indurop-node.
+std::string try_module(const std::filesystem::path& file);
+
+inline constexpr const char* kTrialFlag = "--try-module";
+// main() of that process: argv = {self, kTrialFlag, file}.
+[[noreturn]] void load_on_trial(int argc, char** argv);
+
+}  // namespace indurop::node
