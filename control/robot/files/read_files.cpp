@@ -169,9 +169,9 @@ std::string out_of_reach(const Arm& arm, const Inverse& inverse, const Target& t
          "; give it a nearer position or another orientation";
 }
 
-// A point may give the value of an axis only if its pose leaves that axis undetermined.
-std::string wrong_axis(const Arm& arm, const Target& target) {
-  const Held more = target.held & ~redundant_axes(arm);
+// A point or a motion may give the value of an axis only if a pose leaves that axis undetermined.
+std::string wrong_axis(const Arm& arm, Held held) {
+  const Held more = held & ~redundant_axes(arm);
   for (unsigned i = 0; i < kAxes; ++i) {
     if ((more >> i & 1U) != 0) {
       return "AXIS " + std::to_string(i + 1) + " follows from the pose; leave it out, or use JOINT";
@@ -181,7 +181,7 @@ std::string wrong_axis(const Arm& arm, const Target& target) {
 }
 
 std::string wrong_pose(const Arm& arm, const Inverse& inverse, const Target& target, const Solutions& found) {
-  if (std::string text = wrong_axis(arm, target); !text.empty()) {
+  if (std::string text = wrong_axis(arm, target.held); !text.empty()) {
     return text;
   }
   if (found.count == 0) {
@@ -228,6 +228,32 @@ Diagnostics solve_points(JobBook& book, const Arm& arm, bool placed) {
       errors.push_back(error(point.file, point.place, "point '" + point.name + "': " + wrong));
       const bool may_move = closed || book.is_computed(point);
       errors.back().severity = may_move ? base::Diagnostic::Severity::Warning : base::Diagnostic::Severity::Error;
+    }
+  }
+  return errors;
+}
+
+// The axes of lines and circles.
+Diagnostics check_axes_of_motions(const JobBook& book, const Arm& arm) {
+  Diagnostics errors;
+  for (const Job& job : book.jobs) {
+    for (const Step& step : job.steps) {
+      const MotionExtras* const extras = step.op == Op::Move ? book.extras_of(step) : nullptr;
+      for (std::size_t i = 0; extras != nullptr && i < extras->settings.size(); ++i) {
+        const Step& each = extras->settings[i];
+        if (each.op != Op::Axis) {
+          continue;
+        }
+        std::string wrong = wrong_axis(arm, 1U << static_cast<unsigned>(each.index));
+        const Axis& axis = arm.axis(each.index);
+        if (wrong.empty() && each.formula < 0 && !axis.endless &&
+            !(each.value >= axis.lower && each.value <= axis.upper)) {
+          wrong = "AXIS " + std::to_string(each.index + 1) + " is beyond the limits of this axis in the URDF";
+        }
+        if (!wrong.empty()) {
+          errors.push_back(error(job.file, {static_cast<int>(each.line), 1}, wrong));
+        }
+      }
     }
   }
   return errors;
@@ -316,6 +342,7 @@ ReadFiles read_files(const FileNames& names) {
     const bool placed = read.errors.empty();
     take_over(check_points(read.book, read.model->arm), read.errors);
     sort_out(solve_points(read.book, read.model->arm, placed), read);
+    take_over(check_axes_of_motions(read.book, read.model->arm), read.errors);
     sort_out(check_calls(read.book), read);
     sort_out(check_loads(read.book, read.model->dynamics), read);
     sort_out(check_speeds(read.book, names.tool_speed), read);

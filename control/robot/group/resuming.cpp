@@ -138,6 +138,7 @@ ErrorCode Resuming::step_back() noexcept {
   }
   MoveCommand back = last.command;
   back.target = last.from;
+  back.target.held = last.from.is_pose ? 0 : robot_.tool.inverse().held();  // the elbow goes back, too
   back.zone = 0;
   back.source = 0;
   return_ = Return::Back;

@@ -24,10 +24,11 @@ enum class Op : std::uint8_t {
   Move,   // index: point, or kBack and so on; mid: point; value: 1 if a joint motion has to be straight, or if
           // more points of a spline follow; formula: first one of its offset; slot: extras of the book
   Place,  // index: computed place of the book; mid: place formula of the book
-  // The next three may have a formula, which `value` is multiplied with.
+  // The next four may have a formula, which `value` is multiplied with.
   Speed,         // value: part of full speed, or m/s if index is 1
   Zone,          // value: m
   Acceleration,  // value: part of the full accelerations and jerks
+  Axis,          // only of a motion's own settings: index: axis from 0; value: rad or m at its end
   Tool,          // index: tool
   Load,          // index: load of the book
   Weave,         // slot: wave of the book, -1: none
@@ -121,7 +122,7 @@ struct JobPush {
 
 // What the line of a motion says besides its points.
 struct MotionExtras {
-  std::vector<Step> settings{};  // SPEED, ZONE and ACC of this motion only
+  std::vector<Step> settings{};  // SPEED, ZONE, ACC and AXIS of this motion only
   int until = -1;                // formula: the motion ends where it becomes true
   bool has_to_find = false;      // it is an error if it does not
   std::uint32_t seed = 0;        // of the search for a free motion

@@ -17,7 +17,8 @@ namespace indurop::robot {
 namespace {
 
 bool begins_extras(std::string_view word) noexcept {
-  return same_word(word, "SPEED") || same_word(word, "ZONE") || same_word(word, "ACC") || same_word(word, "UNTIL");
+  return same_word(word, "SPEED") || same_word(word, "ZONE") || same_word(word, "ACC") || same_word(word, "UNTIL") ||
+         same_word(word, "AXIS");
 }
 
 }  // namespace
@@ -77,6 +78,8 @@ void MotionReader::extras(std::size_t first_step) {
       more = read_zone(setting);
     } else if (line_.accept("ACC")) {
       more = read_acceleration(setting);
+    } else if (line_.accept("AXIS")) {
+      more = read_axis(setting);
     } else if (line_.accept("UNTIL")) {
       until(extras);
       continue;
@@ -245,6 +248,28 @@ bool MotionReader::read_zone(Step& step) {
   line_.accept("mm");
   step.value /= 1000;
   return in_range(step, 0, 1, number, "a zone is from 0 (stop at the point) to 1000 mm");
+}
+
+// Parses "3 20" of an axis that a pose leaves undetermined.
+bool MotionReader::read_axis(Step& step) {
+  step.op = Op::Axis;
+  if (const Move move = draft_.last().move; move != Move::Line && move != Move::Circle) {
+    line_.error(line_.before(),
+                "AXIS comes after the points of a MOVL, MOVC or SEARCH; for others, it is part of a POINT");
+    return false;
+  }
+  double axis = 0;
+  if (!(line_.numbers(1, &axis, "the number of an axis") && axis >= 1 && axis <= shape_.axes &&
+        axis == std::floor(axis))) {
+    line_.error(line_.before(), "axes have the numbers 1 to " + std::to_string(shape_.axes));
+    return false;
+  }
+  step.index = static_cast<int>(axis) - 1;
+  if (!amount(step, "where the axis is to stand, AXIS 3 20")) {
+    return false;
+  }
+  step.value *= shape_.slides[at(step.index)] ? 0.001 : radians(1);
+  return true;
 }
 
 void MotionReader::acceleration() {

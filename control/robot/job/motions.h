@@ -9,8 +9,8 @@ namespace indurop::robot {
 
 class MotionReader {
  public:
-  explicit MotionReader(const StatementParts& parts)
-      : line_(parts.line), draft_(parts.draft), names_(parts.names), expressions_(parts.expressions) {}
+  MotionReader(const StatementParts& parts, const ArmShape& shape)
+      : line_(parts.line), draft_(parts.draft), names_(parts.names), expressions_(parts.expressions), shape_(shape) {}
 
   void move(Move kind);
   // A line that has to find something on its way.
@@ -27,6 +27,7 @@ class MotionReader {
   bool read_speed(Step& step);
   bool read_zone(Step& step);
   bool read_acceleration(Step& step);
+  bool read_axis(Step& step);
   void add(const Step& setting);
   bool amount(Step& step, const char* what);
   bool in_range(const Step& step, double low, double high, const JobToken& at, const char* wrong);
@@ -40,6 +41,7 @@ class MotionReader {
   JobDraft& draft_;
   JobNames& names_;
   ExpressionReader& expressions_;
+  const ArmShape shape_;
 };
 
 }  // namespace indurop::robot

@@ -30,7 +30,7 @@ JobParser::JobParser(JobBook& book, base::Diagnostics& errors, const ArmShape& s
       places_({line_, draft_, names_, expressions_}, shape),
       tools_({line_, draft_, names_, expressions_}),
       bodies_({line_, draft_, names_, expressions_}),
-      motions_({line_, draft_, names_, expressions_}),
+      motions_({line_, draft_, names_, expressions_}, shape),
       each_period_({line_, draft_, names_, expressions_}),
       weaving_({line_, draft_, names_, expressions_}),
       pushing_({line_, draft_, names_, expressions_}, shape),

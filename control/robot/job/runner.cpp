@@ -165,6 +165,7 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
     case Op::Speed:
     case Op::Zone:
     case Op::Acceleration:
+    case Op::Axis:
     case Op::Weave:
       if (Step with; (next = done(values_.setting(step, signals, port, with))) == Next::Go) {
         settings_.apply(with);

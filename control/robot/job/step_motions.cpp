@@ -60,6 +60,16 @@ StepValues::Flaw StepMotions::shift(const Step& step, Signals& signals, const Mo
   return {};
 }
 
+// The pose of the target stays the same.
+void StepMotions::give_axis(const Step& setting, const MotionPort& port, Target& target) noexcept {
+  if (!target.is_pose) {
+    target.pose = port.tip_at(target.joints);
+    target.is_pose = true;
+  }
+  target.joints[setting.index] = setting.value;
+  target.held |= 1U << static_cast<unsigned>(setting.index);
+}
+
 StepValues::Flaw StepMotions::make(const Step& step, const MotionSettings& settings, Signals& signals,
                                    const MotionPort& port, MoveCommand& command) const noexcept {
   command.move = step.move;
@@ -82,6 +92,9 @@ StepValues::Flaw StepMotions::make(const Step& step, const MotionSettings& setti
       return flaw;
     }
     own.apply(with);
+    if (with.op == Op::Axis) {
+      give_axis(with, port, command.target);
+    }
   }
   const bool until = extras != nullptr && extras->until >= 0;
   const bool of_joints = is_of_joints(step.move);

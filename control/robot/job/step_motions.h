@@ -34,6 +34,8 @@ class StepMotions {
   StepValues::Flaw place(const Step& step, int tool, const MotionPort& port, Target& target) const noexcept;
   StepValues::Flaw shift(const Step& step, Signals& signals, const MotionPort& port, Target& target) const noexcept;
 
+  static void give_axis(const Step& setting, const MotionPort& port, Target& target) noexcept;
+
   const JobBook& book_;
   const JobPlaces& places_;
   const StepValues& values_;

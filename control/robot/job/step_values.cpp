@@ -36,6 +36,9 @@ StepValues::Flaw StepValues::setting(const Step& step, Signals& signals, const M
   }
   with.value = number_of * step.value;
   const unsigned column = book_.formulas[static_cast<std::size_t>(step.formula)].column();
+  if (step.op == Op::Axis && !std::isfinite(with.value)) {
+    return {"an axis cannot stand there", column};
+  }
   const bool by_part = step.op == Op::Speed && step.index < 0;
   if (step.op == Op::Speed && !(with.value > 0 && (!by_part || with.value <= 1))) {
     return {"a speed is above 0, and at most 100 %", column};

@@ -55,6 +55,14 @@ Solutions Inverse::search(const Pose& pose, const Joints& near, const Search& ho
   return closed_form() ? all(pose, near) : search_numerically(arm_, postures_, pose, near, how);
 }
 
+Inverse::Result Inverse::reach(const Pose& pose, const Joints& near) const noexcept {
+  if (closed_form()) {
+    return nearest(pose, near);
+  }
+  const NumericSolution one = solve_freely(arm_, pose, near);
+  return {one.reach, {one.q, postures_ ? postures_->at(arm_, one.q) : std::uint8_t{0}}};
+}
+
 Joints Inverse::held_as(const Joints& from, Joints near) const noexcept {
   for (int i = 0; i < arm_.count() && held_ != 0; ++i) {
     if ((held_ >> static_cast<unsigned>(i) & 1U) != 0) {

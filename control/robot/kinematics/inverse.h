@@ -30,11 +30,17 @@ class Inverse {
   // All solutions of any arm; takes milliseconds if there is no closed form.
   [[nodiscard]] Solutions search(const Pose& pose, const Joints& near, const Search& how = {}) const noexcept;
 
+  // The solution for a pose that need not be near on a path: an arm without a closed form begins at `near`, and moves
+  // its elbow if that is needed, see solve_freely(). Real-time safe.
+  [[nodiscard]] Result reach(const Pose& pose, const Joints& near) const noexcept;
+
   [[nodiscard]] bool closed_form() const noexcept { return wrist_ || parallel_; }
   // Returns whether the arm has named postures (different ways to reach the same pose).
   [[nodiscard]] bool has_postures() const noexcept { return postures_.has_value(); }
-  // Returns `near` with the axes that a pose leaves undetermined set to their values in `from`: along a line they stay
-  // at these values, whatever the place before was.
+  // The axes that a pose leaves undetermined.
+  [[nodiscard]] Held held() const noexcept { return held_; }
+  // Returns `near` with the axes that a pose leaves undetermined set to their values in `from`: along a line they have
+  // these values, whatever the place before was.
   [[nodiscard]] Joints held_as(const Joints& from, Joints near) const noexcept;
   // Text for the user, such as "spherical wrist, inverse kinematics in closed form".
   [[nodiscard]] const char* kind() const noexcept;

@@ -51,7 +51,26 @@ struct Descent {
   int steps = kSteps;
   bool limited = true;  // stays within the limits in every step
   Held held = 0;
+  bool around = false;  // axes at a limit that a step would pass leave it to the others
 };
+
+Joints damped_step(const Jacobian& j, const Twist& twist, double damping) noexcept {
+  Square normal = j.transpose() * j;
+  normal.diagonal().array() += damping;
+  return shortened(normal.ldlt().solve(j.transpose() * twist));
+}
+
+// Axes that are at a limit and that the step would move beyond it.
+Held stopped_by(const Arm& arm, const Joints& q, const Joints& step) noexcept {
+  Held stopped = 0;
+  for (int i = 0; i < arm.count(); ++i) {
+    const Axis& a = arm.axis(i);
+    if (!a.endless && ((q[i] <= a.lower && step[i] < 0) || (q[i] >= a.upper && step[i] > 0))) {
+      stopped |= 1U << static_cast<unsigned>(i);
+    }
+  }
+  return stopped;
+}
 
 // Damped least squares. Returns the square of the remaining error.
 double descend(const Arm& arm, const Pose& pose, const Descent& how, Joints& q) noexcept {
@@ -61,10 +80,14 @@ double descend(const Arm& arm, const Pose& pose, const Descent& how, Joints& q) 
   double error = error_of(arm, pose, q, twist);
   double damping = 1e-3;
   for (int step = 0; step < how.steps && error > kNear * kNear && damping < 1e6; ++step) {
-    const Jacobian j = moving(arm, q, how.held);
-    Square normal = j.transpose() * j;
-    normal.diagonal().array() += damping;
-    const Joints tried = allowed(q + shortened(normal.ldlt().solve(j.transpose() * twist)));
+    Joints change = damped_step(moving(arm, q, how.held), twist, damping);
+    Held held = how.held;
+    for (Held stopped = how.around ? stopped_by(arm, q, change) : 0; stopped != 0;
+         stopped = stopped_by(arm, q, change)) {
+      held |= stopped;
+      change = damped_step(moving(arm, q, held), twist, damping);
+    }
+    const Joints tried = allowed(q + change);
     Twist left;
     const double found = error_of(arm, pose, tried, left);
     if (found < error) {
@@ -79,6 +102,55 @@ double descend(const Arm& arm, const Pose& pose, const Descent& how, Joints& q) 
     }
   }
   return error;
+}
+
+// Those of the redundant axes that slide: they are never moved for the sake of limits.
+Held rails(const Arm& arm) noexcept {
+  Held held = redundant_axes(arm);
+  for (int i = 0; i < arm.count(); ++i) {
+    held &= arm.axis(i).slides() ? ~0U : ~(1U << static_cast<unsigned>(i));
+  }
+  return held;
+}
+
+// How much each axis is too close to a limit: positive if it has to rise, negative if it has to fall.
+Joints crowding(const Arm& arm, const Joints& q) noexcept {
+  Joints push = Joints::Zero();
+  for (int i = 0; i < arm.count(); ++i) {
+    const Axis& a = arm.axis(i);
+    if (!a.slides() && !a.endless) {
+      push[i] = std::max(0.0, a.lower + kElbowRoom - q[i]) - std::max(0.0, q[i] - a.upper + kElbowRoom);
+    }
+  }
+  return push;
+}
+
+// Moves the elbow of an arm at a pose until no axis is closer to a limit than kElbowRoom, or as far as this helps. The
+// direction is the part of crowding() that does not move the tool, in the null space of the Jacobian.
+void leave_limits(const Arm& arm, const Pose& pose, Held held, Joints& q) noexcept {
+  constexpr int kMostMoves = 40;
+  constexpr double kFirst = 0.2;    // rad
+  constexpr double kFinest = 1e-3;  // rad
+  double size = kFirst;
+  Joints push = crowding(arm, q);
+  for (int move = 0; move < kMostMoves && size > kFinest && push.squaredNorm() > 0; ++move) {
+    const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, kAxes, 6>> qr(moving(arm, q, held).transpose());
+    const Square directions = qr.householderQ();
+    const auto still = directions.rightCols(kAxes - qr.rank());
+    const Joints way = still * (still.transpose() * push);
+    if (way.norm() < 1e-3 * push.norm()) {
+      return;
+    }
+    Joints tried = q + way * (size / way.norm());
+    const bool reached = descend(arm, pose, {kSteps, true, held}, tried) < kExact * kExact;
+    const Joints left = crowding(arm, tried);
+    if (reached && left.squaredNorm() < push.squaredNorm()) {
+      q = tried;
+      push = left;
+    } else {
+      size /= 2;
+    }
+  }
 }
 
 // The change of the axes that reaches the position and, as far as the position leaves them free, turns the tool to the
@@ -204,6 +276,36 @@ NumericSolution solve_numerically(const Arm& arm, const Pose& pose, const Joints
   const bool at_limit = arm.beyond_limits(q, -1e-9) >= 0;
   const Reach missed = at_limit ? Reach::JointLimit : Reach::OutOfReach;
   return {error < kGood * kGood ? Reach::Ok : missed, q};
+}
+
+double room_of(const Arm& arm, const Joints& q) noexcept {
+  double room = HUGE_VAL;
+  for (int i = 0; i < arm.count(); ++i) {
+    const Axis& a = arm.axis(i);
+    if (!a.slides() && !a.endless) {
+      room = std::min({room, q[i] - a.lower, a.upper - q[i]});
+    }
+  }
+  return room;
+}
+
+NumericSolution solve_freely(const Arm& arm, const Pose& pose, const Joints& near) noexcept {
+  const NumericSolution held = solve_numerically(arm, pose, near);
+  const Held rail = rails(arm);
+  if (rail == redundant_axes(arm) || (held.reach == Reach::Ok && room_of(arm, held.q) >= kElbowRoom)) {
+    return held;
+  }
+  NumericSolution free{Reach::Ok, held.reach == Reach::Ok ? held.q : near};
+  if (held.reach != Reach::Ok && descend(arm, pose, {kSteps, true, rail, true}, free.q) >= kExact * kExact) {
+    // Steps that are cut off at a limit may end there although the pose is reached beyond or around it.
+    free.q = near;
+    const bool reached = descend(arm, pose, {kSteps, false, rail}, free.q) < kExact * kExact;
+    if (!reached || !turn_back(arm, near, free.q)) {
+      return held;
+    }
+  }
+  leave_limits(arm, pose, rail, free.q);
+  return free;
 }
 
 Solutions search_numerically(const Arm& arm, const std::optional<Postures>& postures, const Pose& pose,

@@ -9,11 +9,16 @@
 
 namespace indurop::robot {
 
-// Set of axes that are held, one bit each.
+// Set of axes, one bit each.
 using Held = unsigned;
 // The redundant axes of an arm with more than six: those that slide, else the third, whose angle determines where the
 // elbow is.
 Held redundant_axes(const Arm& arm) noexcept;
+
+// Turning axes stay this far from their limits where the elbow can move, rad.
+inline constexpr double kElbowRoom = 0.1;
+// rad by which the turning axis that is nearest to a limit is away from it; negative beyond the limit.
+double room_of(const Arm& arm, const Joints& q) noexcept;
 
 struct NumericSolution {
   Reach reach = Reach::OutOfReach;
@@ -22,6 +27,9 @@ struct NumericSolution {
 
 // Iterates from `near`, within the limits; at most a hundred steps. Real-time safe; on a path a few steps are enough.
 NumericSolution solve_numerically(const Arm& arm, const Pose& pose, const Joints& near) noexcept;
+// The same for a single pose, not for a path: if the held axes are in the way, or an axis gets too close to a limit,
+// the turning ones among them move, away from limits as far as kElbowRoom. Real-time safe.
+NumericSolution solve_freely(const Arm& arm, const Pose& pose, const Joints& near) noexcept;
 
 struct Search {
   // Number of start values between the limits: `least`, and up to `most` if nothing was found.

@@ -136,7 +136,8 @@ Reach Places::on(const Segment& segment, double place, const Joints& near, Solut
     solution = {segment.joint_path->at(segment.timed ? segment.timing.at(place).place : place), 0};
     return Reach::Ok;
   }
-  const auto found = inverse_->nearest(segment.pose_at(place), inverse_->held_as(segment.from, near));
+  const double along = segment.timed ? segment.timing.at(place).place : place;
+  const auto found = inverse_->nearest(segment.pose_on_path(along), held_at(segment, along, near));
   if (found.reach == Reach::Ok) {
     solution = found.solution;
   }
@@ -148,7 +149,7 @@ Reach Places::on_path(const Segment& segment, double along, const Joints& near, 
     q = segment.joint_path->at(along);
     return Reach::Ok;
   }
-  const auto found = inverse_->nearest(segment.pose_on_path(along), inverse_->held_as(segment.from, near));
+  const auto found = inverse_->nearest(segment.pose_on_path(along), held_at(segment, along, near));
   if (found.reach == Reach::Ok) {
     q = found.solution.q;
   }
@@ -174,7 +175,11 @@ Reach Places::on(const Segment& first, const Blend& blend, const Segment& second
     const Pose& corner = second.start;
     const Pose pose{a.position + (b.position - corner.position),
                     a.orientation * (corner.orientation.conjugate() * b.orientation)};
-    const auto found = inverse_->nearest(pose, inverse_->held_as(second.from, near));
+    Joints elbow = second.from;
+    if (first.elbow_moves || second.elbow_moves) {
+      elbow = held_at(first, before, elbow) + (held_at(second, behind, elbow) - second.from);
+    }
+    const auto found = inverse_->nearest(pose, inverse_->held_as(elbow, near));
     if (found.reach == Reach::Ok) {
       q = found.solution.q;
     }

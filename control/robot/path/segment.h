@@ -70,12 +70,15 @@ struct Segment {
   Vec3 turn = Vec3::Zero();  // rotation vector from start to end, in the start's frame
   Vec3 center = Vec3::Zero(), radius_x = Vec3::Zero(), radius_y = Vec3::Zero();  // of circles
   double angle = 0;                                                              // of circles, from radius_x on
-  const ToolPath* chain = nullptr;                                               // many pieces; not owned
-  const JointPath* joint_path = nullptr;                                         // of Move::Free; not owned
-  double way = 0;                                                                // m, of lines and circles
-  double length = 0;                                                             // s at full speed
-  double zone = 0;                                                               // m
-  Wave wave;                                                                     // added to pose_at()
+  // Whether axes that the pose of the tool leaves undetermined move, uniformly from `from` to `elbow`; else they stay.
+  bool elbow_moves = false;
+  Joints elbow = Joints::Zero();          // only these axes count
+  const ToolPath* chain = nullptr;        // many pieces; not owned
+  const JointPath* joint_path = nullptr;  // of Move::Free; not owned
+  double way = 0;                         // m, of lines and circles
+  double length = 0;                      // s at full speed
+  double zone = 0;                        // m
+  Wave wave;                              // added to pose_at()
   // m/s of the tool's tip or of the arm's end, whichever is faster, at full speed; for joint motions whose axes arrive
   // together it is known when they begin.
   double tip_speed = 0;
@@ -110,6 +113,8 @@ struct Segment {
   // The same without the wave, and which part of a line or circle that place is.
   [[nodiscard]] Pose calm_at(double along) const noexcept;
   [[nodiscard]] double part_at(double along) const noexcept;
+  // Joint values of which those that the pose leaves undetermined count, by the distance on the path.
+  [[nodiscard]] Joints elbow_at(double along) const noexcept { return from + part_at(along) * (elbow - from); }
   // The distance on the path, without its wave.
   [[nodiscard]] PathWay way_at(double along) const noexcept;
   // A joint motion to `to`, at part of full speed, whose axes arrive together.
@@ -177,6 +182,10 @@ class Places {
   // The joint angles nearest to `near`. A result other than Ok leaves `q` unchanged. Joint paths have posture 0.
   Reach on(const Segment& segment, double place, const Joints& near, Joints& q) const noexcept;
   Reach on(const Segment& segment, double place, const Joints& near, Solution& solution) const noexcept;
+  // `near` with the axes that a pose leaves undetermined where they are on the path, by the distance on it.
+  [[nodiscard]] Joints held_at(const Segment& segment, double along, const Joints& near) const noexcept {
+    return inverse_->held_as(segment.elbow_moves ? segment.elbow_at(along) : segment.from, near);
+  }
   // For lines and circles, by the distance on the path.
   Reach on_path(const Segment& segment, double along, const Joints& near, Joints& q) const noexcept;
   Reach on(const Segment& first, const Blend& blend, const Segment& second, double place, const Joints& near,

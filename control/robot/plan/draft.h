@@ -13,7 +13,8 @@ struct Draft {
   JointLimits joints;  // that this motion keeps: those of the arm, or gentler ones
   ToolLimits tool;
   PlanningWork work;
-  Wave wave{};  // that the path gets once its places are known
+  bool elbow_given = false;  // the command says where the elbow is at the end
+  Wave wave{};               // that the path gets once its places are known
 
   // Sets the number of the command that a chain follows at a place, for a fault that is found there.
   void blame(double place) noexcept {

@@ -26,9 +26,17 @@ bool in_range(const MoveCommand& command) noexcept {
 }
 
 // Searches for an arm without a closed form if no solutions are known: next to a point, or for a pose given by a
-// command. An axis that the pose leaves undetermined stays where it is, if possible.
+// command. An axis that the pose leaves undetermined stays where it is, if that is possible and no axis gets close to a
+// limit.
 Inverse::Result search(const Places& places, const Target& target, const Joints& near, PlanningWork& work) noexcept {
   const Inverse& inverse = places.inverse();
+  if (inverse.held() != 0 && target.held == 0) {
+    constexpr int kPlaces = 100;
+    work.add(kPlaces);
+    if (const Inverse::Result one = inverse.reach(target.pose, near); one.reach == Reach::Ok) {
+      return one;
+    }
+  }
   Search how{32, 96};
   how.held = target.held != 0 ? target.held : redundant_axes(places.arm());
   const Joints& from = target.held != 0 ? target.joints : near;
@@ -106,12 +114,32 @@ void measure_joint_motion(const Arm& arm, double speed, Draft& draft) noexcept {
   s.tip_speed = tip.farthest() * kPlaces / s.length;
 }
 
+// The axes that the pose leaves undetermined and the target does not.
+Fault aim_elbow(const Places& places, const Target& target, Draft& draft) noexcept {
+  Segment& s = draft.segment;
+  const Held held = target.held & places.inverse().held();
+  draft.elbow_given = held != 0;
+  s.elbow = s.from;
+  for (int i = 0; i < places.arm().count() && held != 0; ++i) {
+    if ((held >> static_cast<unsigned>(i) & 1U) != 0) {
+      s.elbow[i] = target.joints[i];
+      s.elbow_moves = s.elbow_moves || s.elbow[i] != s.from[i];
+    }
+  }
+  const int beyond = held == 0 ? -1 : places.arm().beyond_limits(s.elbow);
+  return {beyond < 0 ? ErrorCode::Ok : ErrorCode::JointLimit, beyond + 1};
+}
+
 void measure_tool_motion(const MoveCommand& command, Draft& draft) noexcept {
   Segment& s = draft.segment;
   const ToolLimits& tool = draft.tool;
   s.turn = rotation_between(s.start.orientation, s.end.orientation);
   const double angle = s.turn.norm();
   s.length = std::max(s.way / tool.velocity, angle / tool.turn_velocity);
+  const Joints elbow = s.elbow_moves ? Joints((s.elbow - s.from).cwiseAbs()) : Joints(Joints::Zero());
+  if (s.elbow_moves) {
+    s.length = std::max(s.length, elbow.cwiseQuotient(draft.joints.velocity).maxCoeff());
+  }
   if (s.length <= 1e-9) {
     s.length = 0;
     s.to = s.from;  // the joint angles of the target may be another posture
@@ -132,6 +160,10 @@ void measure_tool_motion(const MoveCommand& command, Draft& draft) noexcept {
   }
   s.limits.acceleration = std::min(shared(acceleration, pace), shared(tool.turn_acceleration, turning));
   s.limits.jerk = std::min(shared(tool.jerk, pace), shared(tool.turn_jerk, turning));
+  for (int i = 0; i < kAxes && s.elbow_moves; ++i) {
+    s.limits.acceleration = std::min(s.limits.acceleration, shared(draft.joints.acceleration[i], elbow[i] / s.length));
+    s.limits.jerk = std::min(s.limits.jerk, shared(draft.joints.jerk[i], elbow[i] / s.length));
+  }
   s.most = s.limits;
 }
 
@@ -219,6 +251,9 @@ Fault make_path(const Places& places, const MoveCommand& command, Draft& draft) 
     }
   } else {
     s.way = (s.end.position - s.start.position).norm();
+  }
+  if (const Fault fault = aim_elbow(places, command.target, draft); !fault.ok()) {
+    return fault;
   }
   measure_tool_motion(command, draft);
   return {};

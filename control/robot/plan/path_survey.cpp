@@ -32,7 +32,8 @@ PathSurvey::PathSurvey(const Places& places, Draft& draft) noexcept
 void PathSurvey::begin() noexcept {
   const Segment& s = draft_.segment;
   const bool chain = s.chain != nullptr;
-  const double finest = std::max(s.way, 0.3 * s.turn.norm()) / (chain ? kChainSpacing : kSpacing);
+  const double elbow = s.elbow_moves ? (s.elbow - s.from).cwiseAbs().maxCoeff() : 0;
+  const double finest = std::max({s.way, 0.3 * s.turn.norm(), 0.3 * elbow}) / (chain ? kChainSpacing : kSpacing);
   count_ = s.joint_path != nullptr ? kMaxPlaces
                                    : std::clamp(static_cast<int>(std::min(finest, 1e6)), kFewestPlaces,
                                                 chain ? kMaxPlaces : kMaxPlaces / 2);

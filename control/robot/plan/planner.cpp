@@ -11,6 +11,7 @@ Planner::Planner(const Places& places, const JointLimits& joints, const ToolLimi
       joints_(joints),
       tool_(tool),
       draft_{{}, joints, tool, {}},
+      elbow_(places, draft_),
       survey_(places, draft_),
       wave_(places, draft_, survey_),
       clearance_(places, joints_, draft_, survey_),
@@ -27,6 +28,8 @@ void Planner::spare(double part) noexcept {
 void Planner::begin(const Joints& from, double acceleration) noexcept {
   draft_.segment = {};
   draft_.wave = {};
+  draft_.elbow_given = false;
+  elbow_.reset();
   draft_.segment.acceleration = acceleration;
   draft_.segment.from = from;
   draft_.segment.start = places_.arm().forward(from);
@@ -47,8 +50,7 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
   }
   if (draft_.segment.length > 0) {
     draft_.wave = draft_.segment.way > 0 ? command.wave : Wave{};
-    survey_.begin();
-    stage_ = Stage::Survey;
+    begin_elbow();
   }
   return {};
 }
@@ -59,8 +61,7 @@ Fault Planner::begin(const ToolPath& chain, const Joints& from, double accelerat
     return fault;
   }
   draft_.wave = draft_.segment.way > 0 ? wave : Wave{};
-  survey_.begin();
-  stage_ = Stage::Survey;
+  begin_elbow();
   return {};
 }
 
@@ -85,9 +86,9 @@ Fault Planner::search(int& places) noexcept {
     return fault;
   }
   make_path(places_, free_.command, *free_.path, draft_);
-  stage_ = draft_.segment.length > 0 ? Stage::Survey : Stage::Done;
-  if (stage_ == Stage::Survey) {
-    survey_.begin();
+  stage_ = Stage::Done;
+  if (draft_.segment.length > 0) {
+    begin_elbow();
   }
   return {};
 }
@@ -109,6 +110,19 @@ Fault Planner::check_workspace() const noexcept {
     }
   }
   return {};
+}
+
+void Planner::begin_elbow() noexcept {
+  elbow_.begin();
+  stage_ = Stage::Elbow;
+  if (elbow_.done()) {
+    begin_survey();
+  }
+}
+
+void Planner::begin_survey() noexcept {
+  survey_.begin();
+  stage_ = Stage::Survey;
 }
 
 Fault Planner::begin_wave() noexcept {
@@ -166,6 +180,12 @@ Fault Planner::step(int& places) noexcept {
   switch (stage_) {
     case Stage::Search:
       return search(places);
+    case Stage::Elbow:
+      elbow_.check(places);
+      if (elbow_.done()) {
+        begin_survey();
+      }
+      return fault;
     case Stage::Survey:
       fault = survey_.check(places);
       return fault.ok() && survey_.done() ? begin_wave() : fault;
@@ -195,7 +215,10 @@ Fault Planner::step(int& places) noexcept {
 
 Fault Planner::check(int places) noexcept {
   while (places > 0 && stage_ != Stage::Done) {
-    if (const Fault fault = step(places); !fault.ok()) {
+    const Fault fault = step(places);
+    if (!fault.ok() && elbow_.give_up()) {
+      begin_survey();
+    } else if (!fault.ok()) {
       stage_ = Stage::Done;
       return fault;
     }

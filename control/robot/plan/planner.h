@@ -7,6 +7,7 @@
 #include "control/robot/plan/blending.h"
 #include "control/robot/plan/draft.h"
 #include "control/robot/plan/effort_look.h"
+#include "control/robot/plan/elbow_choice.h"
 #include "control/robot/plan/free_search.h"
 #include "control/robot/plan/motion_timing.h"
 #include "control/robot/plan/path_clearance.h"
@@ -52,13 +53,15 @@ class Planner {
   }
 
  private:
-  // The steps: search for a way; check reach, limits and singular positions; add a wave; check collisions; find the
-  // timing and rehearse it; check torques.
-  enum class Stage { Search, Survey, Wave, Clearance, Timing, Effort, Done };
+  // The steps: search for a way; choose where the elbow goes; check reach, limits and singular positions; add a wave;
+  // check collisions; find the timing and rehearse it; check torques.
+  enum class Stage { Search, Elbow, Survey, Wave, Clearance, Timing, Effort, Done };
 
   void begin(const Joints& from, double acceleration) noexcept;
   Fault step(int& places) noexcept;
   Fault search(int& places) noexcept;
+  void begin_elbow() noexcept;
+  void begin_survey() noexcept;
   Fault begin_wave() noexcept;
   Fault begin_clearance() noexcept;
   Fault end_clearance() noexcept;
@@ -72,6 +75,7 @@ class Planner {
   JointLimits joints_;  // the part of them that motions may use
   const ToolLimits tool_;
   Draft draft_;
+  ElbowChoice elbow_;
   PathSurvey survey_;
   WaveCheck wave_;
   PathClearance clearance_;

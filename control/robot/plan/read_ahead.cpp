@@ -69,8 +69,8 @@ const MoveCommand& ReadAhead::take() noexcept {
 }
 
 bool ReadAhead::belongs(const MoveCommand& command) const noexcept {
-  return (command.move == Move::Line || command.move == Move::Circle) && !command.alone && command.speed > 0 &&
-         command.speed <= 1 && command.acceleration == this->command(0).acceleration;
+  return (command.move == Move::Line || command.move == Move::Circle) && !command.alone && command.target.held == 0 &&
+         command.speed > 0 && command.speed <= 1 && command.acceleration == this->command(0).acceleration;
 }
 
 void ReadAhead::begin_scan(const Joints& from) noexcept {

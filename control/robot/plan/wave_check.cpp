@@ -50,7 +50,7 @@ Fault WaveCheck::check_next() noexcept {
   Joints moved = Joints::Zero();
   for (const double sign : {1.0, -1.0}) {
     const Pose there{middle.position + sign * far * side, middle.orientation};
-    const auto found = places_.inverse().nearest(there, places_.inverse().held_as(s.from, here));
+    const auto found = places_.inverse().nearest(there, places_.held_at(s, place, here));
     if (found.reach != Reach::Ok) {
       return {code_of(found.reach)};
     }

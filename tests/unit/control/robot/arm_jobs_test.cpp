@@ -62,6 +62,24 @@ TEST(ArmJobs, Seven_axes_stand_where_a_point_says) {
   EXPECT_NEAR(cell->out.command[2], 20, 1e-6) << "a line holds it";
 }
 
+TEST(ArmJobs, Seven_axes_end_a_line_where_it_says) {
+  const std::string at = " = POSE 500 100 600 RPY 180 0 180 AXIS 3 ";
+  const std::string points = "POINT A" + at + "20\nPOINT B = POSE 500 -100 600 RPY 180 0 180\nMOVJ A\n";
+  auto cell = run("iiwa14", points + "MOVL B AXIS 3 35\n");
+  expect_at(*cell, {500, -100, 600});
+  EXPECT_NEAR(cell->out.command[2], 35, 1e-6);
+  cell = run("iiwa14", points + "VAR n = 5\nMOVL B ZONE 20 mm AXIS 3 2 * n SPEED 50%\nMOVL A\n");
+  expect_at(*cell, {500, 100, 600});
+  EXPECT_NEAR(cell->out.command[2], 20, 1e-6) << "the point says it";
+  cell = run("iiwa14", points + "MOVL HERE AXIS 3 -10\n");
+  expect_at(*cell, {500, 100, 600});
+  EXPECT_NEAR(cell->out.command[2], -10, 1e-6) << "only the elbow moves";
+  cell =
+      run("rail", "POINT A = POSE 2500 400 500 RPY 180 0 0 AXIS 1 1800\nMOVJ A\nMOVL HERE OFFSET 50, 0, 0 AXIS 1 2000");
+  expect_at(*cell, {2550, 400, 500});
+  EXPECT_NEAR(cell->out.command[0], 2000, 1e-6);
+}
+
 // Arms without a closed form have to search how they are held there.
 TEST(ArmJobs, Joint_motions_go_to_a_place_relative_to_a_point) {
   for (const auto& [arm, point, place] : {std::tuple{"scara", "400 200 250 RPY 180 0 30", Vec3(400, 200, 250)},
@@ -103,6 +121,15 @@ TEST(ArmJobs, What_an_arm_cannot_do_is_said_with_the_line) {
             "main.job:1:7: error: point 'A': this arm has no postures; leave POSTURE out, or use JOINT");
   EXPECT_EQ(error_of("iiwa14", "POINT A = POSE 500 100 600 RPY 180 0 180 AXIS 2 20\n"),
             "main.job:1:7: error: point 'A': AXIS 2 follows from the pose; leave it out, or use JOINT");
+  const std::string b = "POINT B = POSE 500 -100 600 RPY 180 0 180\n";
+  EXPECT_EQ(error_of("iiwa14", b + "MOVL B AXIS 2 20\n"),
+            "main.job:2:1: error: AXIS 2 follows from the pose; leave it out, or use JOINT");
+  EXPECT_EQ(error_of("iiwa14", b + "MOVL B AXIS 3 200\n"),
+            "main.job:2:1: error: AXIS 3 is beyond the limits of this axis in the URDF");
+  EXPECT_EQ(error_of("iiwa14", b + "MOVL B AXIS 8 20\n"), "main.job:2:13: error: axes have the numbers 1 to 7");
+  EXPECT_EQ(error_of("iiwa14", b + "MOVJ B AXIS 3 20\n"),
+            "main.job:2:8: error: AXIS comes after the points of a MOVL, MOVC or SEARCH; for others, it is part of a "
+            "POINT");
 }
 
 }  // namespace
