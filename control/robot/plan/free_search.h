@@ -22,7 +22,8 @@ class FreeSearch {
   static constexpr int kMostTries = 5000;
 
   // All are borrowed; nothing else uses the bodies during a search.
-  FreeSearch(const Places& places, CollisionCheck& bodies) noexcept : places_(places), bodies_(bodies) {}
+  FreeSearch(const Places& places, CollisionCheck& bodies) noexcept  // NOLINT(cert-msc51-cpp): begin() sets the seed
+      : places_(places), bodies_(bodies) {}
   FreeSearch(const FreeSearch&) = delete;
   FreeSearch& operator=(const FreeSearch&) = delete;
 
