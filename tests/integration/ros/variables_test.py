@@ -5,6 +5,7 @@ makes a class of the definition that came with the connection and computes the c
 import os
 import subprocess
 import sys
+import threading
 
 from ros_harness import Setting, skip, wait_for
 
@@ -20,6 +21,8 @@ except ImportError as missing:
 class Reader:
     """The latest message of a topic, of any type."""
 
+    generating = threading.Lock()  # genpy collects the formats of a type in global variables
+
     def __init__(self, topic):
         self.message = None
         self.header = None
@@ -30,7 +33,8 @@ class Reader:
         self.header = message._connection_header
         name = self.header["type"]
         if name not in self.classes:
-            self.classes = genpy.dynamic.generate_dynamic(name, self.header["message_definition"])
+            with self.generating:
+                self.classes = genpy.dynamic.generate_dynamic(name, self.header["message_definition"])
         decoded = self.classes[name]()
         decoded.deserialize(message._buff)
         self.message = decoded
