@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop reload: the code of a module is exchanged while the node runs.
 
+#include <fmt/format.h>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
