@@ -1,11 +1,8 @@
 #!/usr/bin/env python3
 """Shows every lint a violation: a check that finds nothing because it is broken fails here."""
 
-import json
-import pathlib
 import shutil
 import subprocess
-import tempfile
 import unittest
 
 import check_classes
@@ -15,34 +12,14 @@ import check_format
 import check_functions
 import check_headers
 import check_includes
+import check_precompiled
 import check_readme
 import check_run
 import check_symbols
 import check_text
 import check_tick
-import check_tidy
 
-HERE = pathlib.Path(__file__).parent
-ROOT = HERE.parent.parent
-HEAD = "// SPDX-License-Identifier: Apache-2.0\n// Sample.\n\n"
-
-
-class Sample(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.root = pathlib.Path(folder.name)
-
-    def put(self, name, text):
-        path = self.root / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(text.encode())
-
-    def found(self, findings, *words):
-        """Exactly one finding, which holds all words."""
-        self.assertEqual(len(findings := list(findings)), 1, findings)
-        for word in words:
-            self.assertIn(word, findings[0])
+from sample import HEAD, HERE, ROOT, Sample
 
 
 class Includes(Sample):
@@ -374,13 +351,6 @@ class Headers(Sample):
         self.put("core/rt/b.h", HEAD + "#pragma once\nstruct C {};\n")
         self.found(check_headers.check(self.root, [], self.root), "core/rt/a.h")
 
-    def test_precompiled_header_not_included(self):
-        self.put("core/rt/a.h", HEAD + "#pragma once\n#include <string>\n")
-        self.put("core/rt/a.cpp", HEAD + '#include "core/rt/a.h"\nstd::string text;  // std::map<int, int>\nstd::vector<int> list;\n')
-        findings = check_headers.check(self.root, [])
-        self.found(findings, "core/rt/a.cpp", "<vector>")
-        self.assertEqual(len(findings), 1, findings)
-
     def test_own_header_not_first(self):
         self.put("core/rt/a.h", HEAD + "#pragma once\nstd::size_t a();\n")
         self.put("core/rt/a.cpp", HEAD + '#include <string>\n#include "core/rt/a.h"\n')
@@ -389,6 +359,15 @@ class Headers(Sample):
     def test_good_header(self):
         self.put("include/indurop/a.h", HEAD + "#pragma once\n#include <string>\nstd::string a();\n")
         self.assertEqual(check_headers.check(self.root, []), [])
+
+
+class Precompiled(Sample):
+    def test_not_included(self):
+        self.put("core/rt/a.h", HEAD + "#pragma once\n#include <string>\n")
+        self.put("core/rt/a.cpp", HEAD + '#include "core/rt/a.h"\nstd::string text;  // std::map<int, int>\nstd::vector<int> list;\n')
+        findings = check_precompiled.check(self.root)
+        self.found(findings, "core/rt/a.cpp", "<vector>")
+        self.assertEqual(len(findings), 1, findings)
 
 
 class Symbols(Sample):
@@ -530,70 +509,6 @@ class Run(Sample):
         self.assertEqual(check_run.check(self.junit(), self.LOG, []), [])
         many = "".join(self.LOG.replace("Flaky", f"F{i}") for i in range(3))
         self.found(check_run.check(self.junit(), many, []), "F0", "F2")
-
-
-class Tidy(Sample):
-    def setUp(self):
-        super().setUp()
-        shutil.copy(ROOT / ".clang-tidy", self.root)
-
-    def tidy(self, text):
-        self.put("core/rt/a.cpp", HEAD + text)
-        entry = {"file": str(self.root / "core/rt/a.cpp"), "directory": str(self.root), "command": "c++ -std=c++20 -c core/rt/a.cpp"}
-        return check_tidy.tidy_one(self.root, self.root, entry, self.root, b"")
-
-    def test_clean_file_is_remembered(self):
-        self.assertEqual(self.tidy("int twice(int a) { return a * 2; }\n"), [])
-        self.assertTrue([path for path in self.root.iterdir() if len(path.name) == 64])
-
-    def test_changed_files(self):
-        def git(*words):
-            subprocess.run(["git", "-c", "user.name=n", "-c", "user.email=e@example.org", *words], cwd=self.root, check=True,
-                           capture_output=True)
-        self.assertEqual(check_tidy.changed(self.root), ([], "no git here"))
-        git("init")
-        self.put("core/rt/a.cpp", HEAD)
-        self.put("core/rt/b.cpp", HEAD)
-        git("add", ".")
-        git("commit", "-m", "one")
-        self.assertEqual(check_tidy.changed(self.root)[0], [])
-        self.put("core/rt/b.cpp", HEAD + "int b;\n")
-        git("commit", "-am", "two")
-        self.put("core/rt/c.cpp", HEAD)
-        self.assertEqual(sorted(check_tidy.changed(self.root)[0]), ["core/rt/b.cpp", "core/rt/c.cpp"])
-
-    def test_files_that_are_compiled_together(self):
-        self.put("core/rt/a.cpp", HEAD + "int* f() { return 0; }\n")
-        self.put("build/core/rt/Unity/unity_0_cxx.cxx", f'/* made */\n#include "{self.root}/core/rt/a.cpp"\n')
-        together = {"file": str(self.root / "build/core/rt/Unity/unity_0_cxx.cxx"), "directory": str(self.root),
-                    "command": "c++ -std=c++20 -c build/core/rt/Unity/unity_0_cxx.cxx"}
-        alone = {**together, "file": str(self.root / "core/rt/b.cpp")}
-        self.put("build/compile_commands.json", json.dumps([together, alone]))
-        entries = list(check_tidy.compiled(self.root / "build"))
-        self.assertEqual([entry["file"] for entry in entries], [str(self.root / "core/rt/a.cpp"), alone["file"]])
-        self.found(check_tidy.tidy_one(self.root, self.root, entries[0], self.root, b""), "core/rt/a.cpp", "modernize-use-nullptr")
-
-    def test_findings_are_remembered(self):
-        self.assertEqual(*(self.tidy("int* f() { return 0; }\n") for _ in range(2)))
-
-    def test_function_name(self):
-        self.found(self.tidy("int TwiceAsMuch(int a) { return a * 2; }\n"), "readability-identifier-naming")
-
-    def test_private_member_name(self):
-        text = "class A {\n  int a = 0;\n\n public:\n  int get() const { return a; }\n};\nint f() { return A().get(); }\n"
-        self.found(self.tidy(text), "readability-identifier-naming")
-
-    def test_macro_name(self):
-        self.assertTrue(any("naming" in line for line in self.tidy("#define Other 1\n")))
-
-    def test_analyzer(self):
-        text = "int f(bool a) {\n  int* p = nullptr;\n  int b = 1;\n  if (!a) {\n    p = &b;\n  }\n  return *p;\n}\n"
-        self.found(self.tidy(text), "clang-analyzer-core.NullDereference")
-
-    def test_misspelt_family(self):
-        self.put(".clang-tidy", (ROOT / ".clang-tidy").read_text().replace("bugprone-*", "bug-prone-*"))
-        self.put("core/rt/clock.cpp", HEAD)
-        self.found(check_tidy.families(self.root), "bugprone")
 
 
 if __name__ == "__main__":
