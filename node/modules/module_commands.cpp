@@ -26,6 +26,7 @@ bool ModuleCommands::is_process(std::uint32_t module) const noexcept {
   return parts_.config.modules[module].type == scheduler::ModuleType::Process;
 }
 
+// A module that has left the schedule ends without a command: another one may be waiting in its record.
 bool ModuleCommands::answer(const Work& work, CommandResult result) {
   const char* done = work.command == ModuleCommand::Stop ? "stopped" : "started";
   const base::Log log = parts_.console.about(record(work.module).name);
@@ -84,7 +85,7 @@ void ModuleCommands::take(std::uint32_t module, ModuleCommand command, rt::MonoT
   const bool runs = state == ModuleState::Running || state == ModuleState::Starting;
   Work work{module, command, Step::Leaving, now, {nullptr, [](Phases::Call* /*none*/) {}}};
   if ((command == ModuleCommand::Stop && stopped) || (command == ModuleCommand::Start && runs)) {
-    scheduler::answer_command(record(module), CommandResult::Unchanged);
+    (void)answer(work, CommandResult::Unchanged);
     return;
   }
   if (!stopped) {
@@ -202,7 +203,7 @@ void ModuleCommands::end() {
         record(work.module).state.store(ModuleState::Loaded);  // it has started, so its stop() will be called
       }
     }
-    scheduler::answer_command(record(work.module), CommandResult::Ending);
+    (void)answer(work, CommandResult::Ending);
   }
   works_.clear();
   schedule_.end();

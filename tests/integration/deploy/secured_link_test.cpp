@@ -105,7 +105,8 @@ TEST_F(SecuredLink, A_plant_is_deployed_inspected_and_commanded_with_keys) {
   EXPECT_EQ(indurop({"stop", "steady@" + board("a")}).code, 0);
   const Outcome status = indurop({"status", "--plant"});
   EXPECT_EQ(status.code, 0) << status.err;
-  EXPECT_EQ(deploy(manifest("v2.xml", {{"a", "other"}, {"b", "steady"}})).code, 0);
+  const Outcome next = deploy(manifest("v2.xml", {{"a", "other"}, {"b", "steady"}}));
+  ASSERT_EQ(next.code, 0) << next.err << next.out;
   const Outcome back = indurop({"rollback", "--health", "500ms"});
   EXPECT_EQ(back.code, 0) << back.err;
 }

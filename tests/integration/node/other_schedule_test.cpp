@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "node_fixture.h"
+#include "scheduler/module_command.h"
 #include "tests/support/wait_until.h"
 
 namespace indurop::test {
@@ -161,6 +162,20 @@ TEST_F(OtherSchedule, A_module_that_ends_is_stopped_and_can_come_back) {
   EXPECT_TRUE(goes_on("second"));
   EXPECT_EQ(module("second").state.load(), ModuleState::Running);
   expect_no_tick_of_counter_is_lost();
+}
+
+// Its record takes the commands that are meant for the whole node, too.
+TEST_F(OtherSchedule, The_first_module_ends_while_it_is_stopped_and_the_answer_to_the_change_stays) {
+  Program& sut = start_and_wait({kCounter, kWalker});
+  ASSERT_EQ(indurop({"stop", "counter", "--node", node()}).code, 0);
+  const Outcome done = change({kWalker});
+  EXPECT_EQ(done.code, 0) << done.out << done.err;
+  EXPECT_TRUE(sut.says("module counter: ended"));
+  scheduler::CommandTicket last = 0;
+  while (scheduler::result_of(run()->modules()[0], last + 1) != scheduler::CommandResult::None) {
+    ++last;
+  }
+  EXPECT_EQ(scheduler::result_of(run()->modules()[0], last), scheduler::CommandResult::Done);
 }
 
 TEST_F(OtherSchedule, A_module_is_added_and_runs_from_the_first_tick_on) {
