@@ -30,6 +30,10 @@ namespace indurop::deploy {
 namespace {
 
 constexpr std::int64_t kLeaseNs = 2'000'000'000;
+// Writers that live as long as their program have the shortest lease of its participant. When a writer with the
+// shortest lease is deleted, Cyclone (0.10) lets that of the next one end after the difference of the two: at once if
+// they are equal, and then other participants forget this one although it is alive.
+constexpr std::int64_t kStateLeaseNs = 1'900'000'000;
 constexpr std::int64_t kChunkBlockNs = 100'000'000;  // maximum time that a chunk waits for room
 constexpr std::int32_t kChunkDepth = 512;            // messages a receiver may lag behind
 constexpr std::int32_t kReports = 8;  // of one name: several threads of DDS may store one before ReportInbox takes it
@@ -42,7 +46,7 @@ dds::Qos link_qos(bool state, bool writer) {
                         .depth = !state   ? kChunkDepth
                                  : writer ? 1
                                           : kReports,
-                        .lease_ns = kLeaseNs,
+                        .lease_ns = state && writer ? kStateLeaseNs : kLeaseNs,
                         .dispose_at_end = true});
 }
 
