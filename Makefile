@@ -9,7 +9,7 @@ PREFIX ?= /usr/local
 # those that were skipped, and fails there if they are too many (tests/lint/check_run.py).
 CTEST = ctest --test-dir build --output-on-failure --no-tests=error -j $(TEST_JOBS) $(if $(CI),--repeat until-pass:2)
 
-.PHONY: all with-tests demo test quick soak rt-proof target-proof deb-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs deb apt arm64 arm64-test install uninstall clean help
+.PHONY: all with-tests demo test quick soak rt-proof target-proof deb-proof container container-proof fuzz check-deps install-deps sanitize asan-ubsan tsan tidy format bench bench-peers docs deb apt arm64 arm64-test install uninstall clean help
 
 all: check-deps ## build into build/, programs in build/bin/
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
@@ -116,6 +116,14 @@ endif
 apt: ## a signed apt repository of these packages in build/apt
 	@.ci/install-deps deb
 	@cmake/packaging/make_apt.sh
+
+container: ## an image of a board for podman and docker, from the package in build/deb, in build/container
+	@.ci/install-deps container
+	@cmake/packaging/make_container.sh
+
+container-proof: ## make this image, deploy a plant into a container of it, kill it and replace it
+	@.ci/install-deps container
+	@tests/integration/packaging/prove_container.sh build/deb build/container-proof
 
 deb-proof: ## build the packages again elsewhere and compare; install, upgrade, remove, purge them in a new Debian (as root)
 	@.ci/install-deps deb deb-proof

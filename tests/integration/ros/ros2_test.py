@@ -71,7 +71,16 @@ class Arm:
 
     def call(self, name):
         """A robot that has just started may need a second attempt."""
-        wait_for(lambda: self.power[name].call({"structure_needs_at_least_one_member": 0})["success"], name)
+        answers = []
+
+        def succeeds():
+            answers.append(self.power[name].call({"structure_needs_at_least_one_member": 0}))
+            return answers[-1]["success"]
+
+        try:
+            wait_for(succeeds, name)
+        except AssertionError as error:
+            raise AssertionError(f"{error}; the last of {len(answers)} answers: {answers[-1:]}") from error
 
     def rejects(self, path, reason, **more):
         """ROS 2 has no words for a rejection: the door reports them."""
