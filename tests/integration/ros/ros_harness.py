@@ -107,8 +107,11 @@ class Setting:
             + module(self.cell / "Robot.so", "periodic", "5ms", 2, urdf="robot.urdf", jobs="test.job", following_limit=30,
                      rated_torque="200 200 200 200 200 200")
             + module(self.cell / "estop.so", "sporadic", "1ms", 1).replace("<property></property>", "") + "</root>\n")
+        # What an earlier node has left can be read and set, but is not what this one starts with.
+        log = self.folder / "node.log"
+        before = log.read_text().count("running 3 modules") if log.exists() else 0
         self.start("node", "indurop", "run", "module.xml", "--node", self.node)
-        wait_for(lambda: self.indurop("get", "PLC_ROBOT::I14", check=False) != "", "the node")
+        wait_for(lambda: log.read_text().count("running 3 modules") > before, "the node")
         self.set("PLC_ROBOT::I14", 1)
         self.set("PLC_ROBOT::I15", 1)
         wait_for(lambda: self.number("PLC_ROBOT::EMERGENCY_STOP.bActive") == 0, "no emergency stop")
