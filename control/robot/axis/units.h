@@ -18,8 +18,8 @@ class AxisUnits {
   struct Scale {
     double counts = 1;  // per radian or metre; negative: the drive turns the other way
     double gear = 1;
-    double unit = kPi / 180;  // unit of its users: degrees or millimetres
-    double zero = 0;          // radians or metres, position of the axis while the drive is at count 0
+    bool slides = false;  // its users have millimetres, not degrees
+    double zero = 0;      // radians or metres, position of the axis while the drive is at count 0
   };
   AxisUnits() = default;
   explicit AxisUnits(const Scale& scale) noexcept : scale_(scale) {}
@@ -33,9 +33,14 @@ class AxisUnits {
   }
   // Returns the counts per radian or metre, without a sign.
   [[nodiscard]] double resolution() const noexcept { return std::abs(scale_.counts); }
-  [[nodiscard]] double unit() const noexcept { return scale_.unit; }
+  // Returns the unit of its users.
+  [[nodiscard]] double unit() const noexcept { return scale_.slides ? 0.001 : kPi / 180; }
+  // Converts a number of its users, as jobs do, to the last bit.
+  [[nodiscard]] double from_users(double number) const noexcept {
+    return scale_.slides ? number / 1000 : radians(number);
+  }
   // Converts a position for users.
-  [[nodiscard]] double for_users(double position) const noexcept { return (position - origin_) / scale_.unit; }
+  [[nodiscard]] double for_users(double position) const noexcept { return (position - origin_) / unit(); }
   // Return 1 or -1: the sign of the drive's torque relative to the axis, for measured and for commanded values.
   [[nodiscard]] double drive_way() const noexcept { return std::copysign(1, scale_.counts); }
   [[nodiscard]] double command_way() const noexcept { return std::copysign(1, scale_.counts * scale_.gear); }

@@ -11,9 +11,8 @@ namespace {
 
 AxisControl::Scale scale_of(const Settings& settings, const Axis& axis, std::size_t i) noexcept {
   const auto own = [i](const std::vector<double>& values) { return values.size() > 1 ? values[i] : values[0]; };
-  const double unit = axis.slides() ? 0.001 : kPi / 180;
   const double counts = axis.slides() ? own(settings.counts_per_mm) * 1000 : own(settings.counts_per_turn) / (2 * kPi);
-  return {counts, own(settings.gear), unit, own(settings.zero) * unit};
+  return {counts, own(settings.gear), axis.slides(), own(settings.zero) * (axis.slides() ? 0.001 : kPi / 180)};
 }
 
 }  // namespace
@@ -61,7 +60,7 @@ Joints AxisRow::passed() const noexcept {
 Joints AxisRow::from_users(const double* numbers) const noexcept {
   Joints q = Joints::Zero();
   for (int i = 0; i < count_; ++i) {
-    q[i] = numbers[i] * axes_[at(i)].unit();
+    q[i] = axes_[at(i)].units().from_users(numbers[i]);
   }
   return q;
 }

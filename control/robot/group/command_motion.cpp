@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "control/robot/group/pose_numbers.h"
 
@@ -16,6 +17,29 @@ bool is_relative(Service service) noexcept {
 }
 bool is_circle(Service service) noexcept {
   return service == Service::CircularAbsolute || service == Service::CircularRelative;
+}
+
+Move move_of(Service service) noexcept {
+  if (is_free(service)) {
+    return Move::Free;
+  }
+  if (is_direct(service)) {
+    return Move::Joint;
+  }
+  return is_circle(service) ? Move::Circle : Move::Line;
+}
+
+// Whether the velocity is a part of full speed, in percent, as for paths of the joints.
+bool is_in_percent(Service service) noexcept {
+  return is_direct(service) || is_free(service);
+}
+
+// A free motion begins and ends at rest.
+bool is_sane_search(const Command& c) noexcept {
+  const double seed = c.aux[0];
+  const double within = c.aux[1];
+  return seed >= 0 && seed <= std::numeric_limits<std::uint32_t>::max() && seed == std::floor(seed) && within >= 0 &&
+         within <= kLongestSearch && c.buffer <= BufferMode::Buffered && c.transition == 0;
 }
 
 // Returns the point through which a circle passes that is given in another way. The end only determines the direction.
@@ -57,6 +81,7 @@ bool is_motion(Service service) noexcept {
     case Service::CircularAbsolute:
     case Service::CircularRelative:
     case Service::Halt:
+    case Service::FreeAbsolute:
       return true;
     default:
       return false;
@@ -73,7 +98,8 @@ bool is_sane(const Command& c) noexcept {
          c.velocity >= 0 && c.transition >= 0 && finite(c.velocity) && finite(c.transition) &&
          c.buffer >= BufferMode::Aborting && c.buffer <= BufferMode::BlendingHigh && c.coords >= CoordSystem::Axes &&
          c.coords <= CoordSystem::Product && c.acceleration == 0 && c.deceleration == 0 && c.jerk == 0 &&
-         (!is_direct(group_service_of(c)) || c.velocity <= 100);
+         (!is_in_percent(group_service_of(c)) || c.velocity <= 100) &&
+         (!is_free(group_service_of(c)) || is_sane_search(c));
 }
 
 // Converts to the machine's coordinates.
@@ -102,7 +128,7 @@ ErrorCode CommandMotion::make_target(const Command& command, const Pose& start, 
   if (robot_.parts.arm.beyond_limits(q) >= 0) {
     return ErrorCode::JointLimit;
   }
-  target.is_pose = !is_direct(service);
+  target.is_pose = !is_in_percent(service);
   target.joints = q;
   target.pose = robot_.tip(q);
   return ErrorCode::Ok;
@@ -144,8 +170,12 @@ ErrorCode CommandMotion::make_circle(const Command& command, const Pose& from, M
 ErrorCode CommandMotion::make(const Command& command, const Pose& start, MoveCommand& move) const noexcept {
   const Service service = group_service_of(command);
   move.acceleration = conveyor_.acceleration();
-  move.move = is_direct(service) ? Move::Joint : is_circle(service) ? Move::Circle : Move::Line;
-  if (is_direct(service)) {
+  move.move = move_of(service);
+  if (is_free(service)) {
+    move.seed = static_cast<std::uint32_t>(command.aux[0]);
+    move.within = command.aux[1] == 0 ? kUsualSearch : command.aux[1];
+  }
+  if (is_in_percent(service)) {
     move.speed = command.velocity == 0 ? 1 : command.velocity / 100;
   } else {
     move.tool_speed = command.velocity / 1000;

@@ -31,6 +31,9 @@ inline Service group_service_of(const Command& command) noexcept {
 }
 [[nodiscard]] bool is_motion(Service service) noexcept;
 [[nodiscard]] bool is_direct(Service service) noexcept;
+constexpr bool is_free(Service service) noexcept {
+  return service == Service::FreeAbsolute;
+}
 // Returns whether all numbers of such a command are possible.
 [[nodiscard]] bool is_sane(const Command& command) noexcept;
 

@@ -139,14 +139,15 @@ void Group::note_lines(const Plan& plan) noexcept {
 }
 
 void Group::motion_failed(const Fault& fault, int source, std::uint32_t ticket) noexcept {
-  if (source < 0) {
-    queue_.fail(source, fault.code);
-    return;
-  }
   JobRunner& job = robot_.job;
   const bool by_job = job.running();
   FaultText why;
   describe(fault, robot_.tool.places().clearance(), why);
+  if (source < 0) {
+    queue_.fail(source, fault.code);
+    job.set_message(why);
+    return;
+  }
   if (source > 0 && job.recover(fault, why, source, ticket)) {
     plans_.ahead().clear();  // the next one begins where the motion before it ends
     resuming_.forget_steps();

@@ -14,7 +14,8 @@ int source_of(int ticket) noexcept {
 
 // Returns whether the target of a motion is known before the motion in front of it has been planned.
 bool is_known_ahead(const Command& command) noexcept {
-  return command.coords != CoordSystem::Axes || group_service_of(command) == Service::DirectAbsolute;
+  const Service service = group_service_of(command);
+  return command.coords != CoordSystem::Axes || service == Service::DirectAbsolute || is_free(service);
 }
 
 }  // namespace
@@ -28,9 +29,7 @@ void MotionQueue::take(int ticket) noexcept {
   if (code == ErrorCode::Ok && !is_sane(command)) {
     code = ErrorCode::Value;
   }
-  if (code == ErrorCode::Ok && conveyor_.product_lost() && command.coords == CoordSystem::Product) {
-    code = ErrorCode::Belt;
-  }
+  code = code == ErrorCode::Ok ? check_product(command) : code;
   if (code != ErrorCode::Ok) {
     robot_.table.end(ticket, code);
     return;
@@ -41,6 +40,17 @@ void MotionQueue::take(int ticket) noexcept {
   }
   motions_[at(count_++)] = ticket;
   begin_moving();
+}
+
+// A free motion is proven clear where it is searched for, so no belt may move it.
+ErrorCode MotionQueue::check_product(const Command& command) const noexcept {
+  if (command.coords != CoordSystem::Product) {
+    return ErrorCode::Ok;
+  }
+  if (conveyor_.product_lost()) {
+    return ErrorCode::Belt;
+  }
+  return is_free(group_service_of(command)) && conveyor_.product_moves() ? ErrorCode::State : ErrorCode::Ok;
 }
 
 void MotionQueue::begin_moving() noexcept {
@@ -94,6 +104,9 @@ double MotionQueue::zone_of(int i) const noexcept {
     return 0;
   }
   const Command& next = command(i + 1);
+  if (is_free(group_service_of(command(i)))) {
+    return 0;
+  }
   const auto on_product = [](const Command& c) { return c.coords == CoordSystem::Product; };
   if (conveyor_.product_moves() && on_product(next) != on_product(command(i))) {
     return 0;  // in between, the tool synchronizes with the product or leaves it
@@ -113,8 +126,9 @@ void MotionQueue::feed() noexcept {
       halt(ticket);
       return;
     }
-    ErrorCode code = ErrorCode::Ok;
-    const bool there = goes_on || conveyor_.reaches(next.coords == CoordSystem::Product, code);
+    ErrorCode code = check_product(next);
+    const bool there =
+        code == ErrorCode::Ok && (goes_on || conveyor_.reaches(next.coords == CoordSystem::Product, code));
     if (there && !goes_on) {
       start_ = robot_.tip(conveyor_.planned_end());
     }

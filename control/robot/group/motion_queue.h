@@ -41,6 +41,8 @@ class MotionQueue {
 
  private:
   [[nodiscard]] const Command& command(int i) const noexcept { return robot_.table.command(motions_[at(i)]); }
+  // Errors: Belt, State.
+  [[nodiscard]] ErrorCode check_product(const Command& command) const noexcept;
   void begin_moving() noexcept;
   void replace_all(int ticket) noexcept;
   ErrorCode redirect(int ticket) noexcept;

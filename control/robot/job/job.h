@@ -126,7 +126,7 @@ struct MotionExtras {
   int until = -1;                // formula: the motion ends where it becomes true
   bool has_to_find = false;      // it is an error if it does not
   std::uint32_t seed = 0;        // of the search for a free motion
-  double within = 10;            // s that this search may take
+  double within = kUsualSearch;  // s that this search may take
 };
 
 // A point or a frame that a job computes.

@@ -128,9 +128,8 @@ void MotionReader::seed(MotionExtras& extras) {
 }
 
 void MotionReader::within(MotionExtras& extras) {
-  constexpr double kMost = 600;  // s
   const JobToken number = line_.peek();
-  if (line_.duration(extras.within) && !(extras.within > 0 && extras.within <= kMost)) {
+  if (line_.duration(extras.within) && !(extras.within > 0 && extras.within <= kLongestSearch)) {
     line_.error(number, "a search for a way may take up to 600 s, and more than 0");
   }
 }

@@ -39,6 +39,9 @@ struct Target {
   const Solutions* known = nullptr;     // of a pose whose solutions take long to find; not owned
 };
 
+// s that the search for a free motion may take: at most, and if its command does not say.
+inline constexpr double kLongestSearch = 600, kUsualSearch = 10;
+
 struct MoveCommand {
   Move move = Move::Joint;
   Target target;

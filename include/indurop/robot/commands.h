@@ -61,7 +61,7 @@ struct Command {
   std::int16_t job = 0;        // for JobStart
   std::array<double, 8> to{};  // deg; a pose: mm and deg; a single axis uses the first
   // For circles: the point between, the centre or the radius as a vector. For tracking: the product on the belt or
-  // table.
+  // table. For FreeAbsolute: seed and s of the search.
   std::array<double, 8> aux{};
   double velocity = 0;      // deg/s, mm/s; joint motions of the group: %
   double acceleration = 0;  // deg/s^2

@@ -219,6 +219,38 @@ TEST_F(RobotNode, Every_block_of_products_that_move) {
   run_blocks("track_blocks");
 }
 
+// A post between two places, and a wall that no way leads around.
+const char* const kPostAndWall =
+    "KEEPOUT post = CYLINDER 750 0 0 750 0 700 RADIUS 60\nKEEPOUT left = BOX -100 210 0 -60 1500 3000\n"
+    "KEEPOUT right = BOX -100 -1500 0 -60 -210 3000\nKEEPOUT above = BOX -100 -210 700 -60 210 3000\n"
+    "POINT A = JOINT 50 30 -20 0 80 0\nMOVJ A SPEED 20%\n";
+
+TEST_F(RobotNode, Every_use_of_the_block_that_moves_around_obstacles) {
+  run_blocks("free_blocks", 3, kPostAndWall);
+}
+
+// With the planning thread.
+TEST_F(RobotNode, A_force_holds_the_block_that_moves_around_obstacles) {
+  auto all = modules(kPostAndWall);
+  all.push_back({.file = std::string(BLOCKS_DIR) + "/free_blocks.so", .name = "plc", .period = "5ms", .priority = 3});
+  start_and_wait(all);
+  ASSERT_TRUE(wait_until([&] { return number("free_blocks::stage") >= 3; }));
+  ASSERT_EQ(indurop({"force", "PLC_ROBOT::ROBOT_HOLD", "1"}).code, 0);
+  ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::ROBOT_ARM.override_now") == 0; }));
+  const double held = joint(1);
+  const double stage = number("free_blocks::stage");
+  const double scans = number("free_blocks::scans");
+  ASSERT_TRUE(wait_until([&] { return number("free_blocks::scans") > scans + 200; }));
+  EXPECT_EQ(joint(1), held);
+  EXPECT_EQ(number("free_blocks::stage"), stage);
+  ASSERT_EQ(indurop({"unforce", "PLC_ROBOT::ROBOT_HOLD"}).code, 0);
+  set("PLC_ROBOT::ROBOT_HOLD", "0");
+  EXPECT_TRUE(wait_until([&] { return number("free_blocks::stage") == 100; }, std::chrono::seconds(60)))
+      << number("free_blocks::stage") << indurop({"get", "PLC_ROBOT::ROBOT_JOB"}).out;
+  EXPECT_EQ(indurop({"get", "free_blocks::ok_Stop"}).out, "true\n");
+  EXPECT_EQ(indurop({"get", "free_blocks::ok_NoWay"}).out, "true\n");
+}
+
 TEST_F(RobotNode, Two_robots_in_one_node_move_independently) {
   start_and_wait(two_robots());
   set("PLC_ROBOT::I14", "1");
