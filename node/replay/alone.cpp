@@ -49,7 +49,7 @@ void Alone::note(const recorder::RunWords& run) {
   then_ns_.push_back(run.tail.end_ns - run.tail.start_ns);
 }
 
-Result<void, base::Problem> Alone::write(const std::filesystem::path& file) const {
+Result<void, base::Problem> Alone::write(const std::filesystem::path& file, const OtherDeclarations& others) const {
   Json variables = Json::array();
   for (const KnownValue& known : module_.known) {
     if (known.written) {
@@ -70,6 +70,8 @@ Result<void, base::Problem> Alone::write(const std::filesystem::path& file) cons
       {"now", times_json(now_ns_)},
       {"then", times_json(then_ns_)},
       {"not_written", std::vector<std::string>(module_.not_written.begin(), module_.not_written.end())},
+      {"new", others.added},
+      {"converted", others.converted},
       {"variables", variables}};
   if (const auto written = base::replace_file(file, report.dump(2), base::Durable::No); !written) {
     return base::Problem{base::cannot_write(file, written.error())};

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/problem.h"
+#include "node/replay/other_declarations.h"
 #include "node/replay/replayed_module.h"
 
 namespace indurop::node {
@@ -29,7 +30,8 @@ class Alone {
   // Notes a run that was repeated and compared.
   void note(const recorder::RunWords& run);
   // Writes the result as JSON (docs/reload.md). Errors: those of the disk.
-  [[nodiscard]] Result<void, base::Problem> write(const std::filesystem::path& file) const;
+  [[nodiscard]] Result<void, base::Problem> write(const std::filesystem::path& file,
+                                                  const OtherDeclarations& others) const;
 
  private:
   ReplayedModule& module_;

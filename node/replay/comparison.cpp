@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+#include <utility>
+
+#include "core/schema/carry.h"
 #include "history/recording/cdr.h"
 
 namespace indurop::node {
@@ -50,11 +54,11 @@ void Comparison::close_output() {
   }
 }
 
-void Comparison::write_output(std::uint32_t variable, const std::vector<std::uint8_t>& cdr, std::int64_t end_ns) {
+void Comparison::write_output(const KnownValue& known, const std::vector<std::uint8_t>& cdr, std::int64_t end_ns) {
   if (!output_) {
     return;
   }
-  if (auto written = output_->take(variable, variable_at(store_, variable), cdr, end_ns + real_minus_node_ns_);
+  if (auto written = output_->take(known.variable, declaration_of(known), cdr, end_ns + real_minus_node_ns_);
       !written) {
     console_.error("{}", written.error().text);
     output_failed_ = true;
@@ -88,36 +92,63 @@ void Comparison::compare(ReplayedModule& module, const recorder::RunWords& run) 
   }
 }
 
+const schema::Variable& Comparison::declaration_of(const KnownValue& known) const {
+  return known.former != nullptr ? *known.former : variable_at(store_, known.variable);
+}
+
+// Reads the value that is compared, as the recording declares the variable: parts that this does not have in common
+// with the present declaration are equal. Returns false if a part of it is no value of the recorded type.
+bool Comparison::read_now(const KnownValue& known) {
+  const vars::DirectoryEntry& entry = store_.directory()[known.variable];
+  now_.resize(entry.value_size);
+  if (!store_.read(entry, 0, now_).ok()) {
+    now_ = known.bytes;
+    return true;
+  }
+  if (known.former == nullptr) {
+    return true;
+  }
+  const schema::Variable& variable = variable_at(store_, known.variable);
+  std::vector<std::uint8_t> as_then = known.bytes;
+  const bool fits = schema::carry_what_fits(variable.name, {variable.type, variable.unit}, now_,
+                                            {known.former->type, known.former->unit}, as_then)
+                        .empty();
+  now_ = std::move(as_then);
+  return fits;
+}
+
 void Comparison::compare(const ReplayedModule& module, KnownValue& known, const recorder::RunWords& run) {
   const vars::DirectoryEntry& entry = store_.directory()[known.variable];
-  const schema::Variable& variable = variable_at(store_, known.variable);
+  const schema::Variable& variable = declaration_of(known);
   if (!forced_then_.empty() && forced_then_.any(variable.name, run.tail.start_ns, run.tail.end_ns)) {
     ++forced_[variable.name];
-    write_output(known.variable, known.cdr, run.tail.end_ns);
-    (void)store_.write(entry, 0, known.bytes);
+    write_output(known, known.cdr, run.tail.end_ns);
+    (void)store_.write(entry, 0, as_declared_now(store_, known.variable, known.former, known.bytes));
     return;
   }
-  now_.resize(entry.value_size);
   ++values_;
   known.ever_compared = true;
   known.compared += module.disturbed ? 0U : 1U;
+  const bool fits = read_now(known);
   // Padding between the parts of a value may differ.
-  if (!store_.read(entry, 0, now_).ok() || now_ == known.bytes ||
-      (recording::to_cdr(variable.type, now_, cdr_).ok() && cdr_ == known.cdr)) {
-    write_output(known.variable, known.cdr, run.tail.end_ns);
+  const bool is_same = now_ == known.bytes || (recording::to_cdr(variable.type, now_, cdr_).ok() && cdr_ == known.cdr);
+  if (fits && is_same) {
+    write_output(known, known.cdr, run.tail.end_ns);
     return;
   }
-  write_output(known.variable, module.disturbed ? known.cdr : cdr_, run.tail.end_ns);
-  note_difference(module, known, run.tail.tick);
+  write_output(known, module.disturbed || is_same ? known.cdr : cdr_, run.tail.end_ns);
+  note_difference(module, known, run.tail.tick, fits);
   if (!module.keeps_own) {
     (void)store_.write(entry, 0, known.bytes);  // the next run begins with the recorded value
   }
 }
 
-void Comparison::note_difference(const ReplayedModule& module, KnownValue& known, std::uint64_t tick) {
-  const schema::Variable& variable = variable_at(store_, known.variable);
+// `fits`: false: a part is no value of the recorded type, so its distance is no number.
+void Comparison::note_difference(const ReplayedModule& module, KnownValue& known, std::uint64_t tick, bool fits) {
+  const schema::Variable& variable = declaration_of(known);
   if (module.keeps_own) {
-    const Distance now = distance(variable, known.bytes, now_);
+    const Distance now =
+        fits ? distance(variable, known.bytes, now_) : Distance{std::numeric_limits<double>::infinity(), variable.name};
     known.farthest =
         known.differing + known.unclear == 0 || now.largest > known.farthest.largest ? now : known.farthest;
   }
@@ -133,6 +164,15 @@ void Comparison::note_difference(const ReplayedModule& module, KnownValue& known
   ++differing_[variable.name];
   if (known.differing++ == 0) {
     known.first_tick = tick;
+    if (!fits) {
+      const schema::Variable& present = variable_at(store_, known.variable);
+      now_.resize(present.type.size());
+      (void)store_.read(store_.directory()[known.variable], 0, now_);
+      known.first_place = variable.name;
+      known.first_was = schema::format_value(variable.type, known.bytes);
+      known.first_is = schema::format_value(present.type, now_);
+      return;
+    }
     const auto [part, offset] = first_different_part(variable, known.bytes, now_);
     known.first_place = part.name;
     known.first_was = schema::format_value(part.type, std::span(known.bytes).subspan(offset, part.type.size()));

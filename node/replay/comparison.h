@@ -43,8 +43,10 @@ class Comparison {
 
  private:
   void compare(const ReplayedModule& module, KnownValue& known, const recorder::RunWords& run);
-  void note_difference(const ReplayedModule& module, KnownValue& known, std::uint64_t tick);
-  void write_output(std::uint32_t variable, const std::vector<std::uint8_t>& cdr, std::int64_t end_ns);
+  [[nodiscard]] const schema::Variable& declaration_of(const KnownValue& known) const;
+  [[nodiscard]] bool read_now(const KnownValue& known);
+  void note_difference(const ReplayedModule& module, KnownValue& known, std::uint64_t tick, bool fits);
+  void write_output(const KnownValue& known, const std::vector<std::uint8_t>& cdr, std::int64_t end_ns);
 
   vars::Store& store_;
   const Console& console_;

@@ -20,7 +20,7 @@ void ReplayedModules::learn_early_values() {
     std::uint64_t next = 0;
   };
   std::vector<Runs> runs(modules_.size());
-  auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, store_);
+  auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, store_, others_.former);
   if (!recorded) {
     return;  // reported when it is replayed
   }
@@ -76,8 +76,9 @@ bool ReplayedModules::learn_early(const RecordedValue& value, ReplayedModule& mo
   KnownValue& known = module.known[place->second];
   known.ever_recorded = true;
   if (value.words.kind == tape::EntryKind::Again && !after_a_gap) {
-    known.bytes.resize(store_.directory()[value.variable].value_size);
-    known.has_value = recording::from_cdr(variable_at(store_, value.variable).type, value.cdr, known.bytes).ok();
+    const schema::Variable& variable = recorded_declaration(value.variable);
+    known.bytes.resize(variable.type.size());
+    known.has_value = recording::from_cdr(variable.type, value.cdr, known.bytes).ok();
     known.cdr.assign(value.cdr.begin(), value.cdr.end());
   }
   return true;

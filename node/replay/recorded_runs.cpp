@@ -12,22 +12,33 @@
 #include "history/recorder/sources.h"
 #include "history/recorder/tick_search.h"
 #include "history/recording/omg_idl.h"
+#include "node/replay/other_declarations.h"
 
 namespace indurop::node {
 
 using base::Problem;
 
 Result<RecordedRuns, Unfit> RecordedRuns::open(const std::filesystem::path& path, const std::string& board,
-                                               const vars::Store& store) {
+                                               const vars::Store& store, std::span<const schema::Variable> former) {
   auto reader = recording::McapReader::open(path);
   if (!reader) {
     return Unfit{reader.error().text};
   }
   RecordedRuns runs(std::move(reader).value());
-  if (auto matched = runs.match(store, board, path.string()); !matched) {
+  if (auto matched = runs.match(store, former, board, path.string()); !matched) {
     return std::move(matched).error();
   }
   return runs;
+}
+
+Result<std::string, Unfit> RecordedRuns::node_of(const std::filesystem::path& path, const std::string& board) {
+  const auto reader = recording::McapReader::open(path);
+  if (!reader) {
+    return Unfit{reader.error().text};
+  }
+  const recorder::Sources sources = recorder::find_sources(*reader);
+  const auto source = recorder::choose_source(sources, board, path.string());
+  return source ? Result<std::string, Unfit>(sources.all[*source].text("node")) : Unfit{source.error().text};
 }
 
 std::uint16_t& RecordedRuns::channel_of(recorder::ChannelKind kind) noexcept {
@@ -41,7 +52,8 @@ std::uint16_t& RecordedRuns::channel_of(recorder::ChannelKind kind) noexcept {
   }
 }
 
-Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::string& board, const std::string& name) {
+Result<void, Unfit> RecordedRuns::match(const vars::Store& store, std::span<const schema::Variable> former,
+                                        const std::string& board, const std::string& name) {
   const recording::Contents& contents = reader_.contents();
   const recorder::Sources sources = recorder::find_sources(reader_);
   const auto source = recorder::choose_source(sources, board, name);
@@ -79,8 +91,9 @@ Result<void, Unfit> RecordedRuns::match(const vars::Store& store, const std::str
       continue;
     }
     const auto schema = contents.schemas.find(contents.channels.at(id).schema);
-    const std::string now = recording::omg_idl(store.schema().variables[entry->schema_index].type).text;
-    if (schema == contents.schemas.end() || schema->second.data != now) {
+    const schema::Variable* const before = former_of(former, entry->name_hash);
+    const schema::Variable& declared = before != nullptr ? *before : store.schema().variables[entry->schema_index];
+    if (schema == contents.schemas.end() || schema->second.data != recording::omg_idl(declared.type).text) {
       changed.insert(place.name);
       continue;
     }

@@ -63,8 +63,11 @@ class RecordedRuns {
  public:
   // `board`: the board to replay, of a file that was joined; else empty. The store is borrowed. Errors: no recording of
   // runs, or none of this board; a variable has another type now (kSchemaMismatch).
+  // Values of variables whose type has changed are read as they were declared (`former`).
   static Result<RecordedRuns, Unfit> open(const std::filesystem::path& path, const std::string& board,
-                                          const vars::Store& store);
+                                          const vars::Store& store, std::span<const schema::Variable> former = {});
+  // Returns the node that was recorded. Errors: as open().
+  static Result<std::string, Unfit> node_of(const std::filesystem::path& path, const std::string& board);
 
   // Returns the next item; nullopt after the last. Views in it are valid until the next call.
   // Errors: a part of the file is damaged; the next call continues after it.
@@ -115,7 +118,8 @@ class RecordedRuns {
   explicit RecordedRuns(recording::McapReader reader) : reader_(std::move(reader)) {}
   // The channel of a kind that holds no values.
   std::uint16_t& channel_of(recorder::ChannelKind kind) noexcept;
-  Result<void, Unfit> match(const vars::Store& store, const std::string& board, const std::string& name);
+  Result<void, Unfit> match(const vars::Store& store, std::span<const schema::Variable> former,
+                            const std::string& board, const std::string& name);
 
   recording::McapReader reader_;
   std::string prefix_;  // of names in the file

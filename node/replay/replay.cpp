@@ -265,7 +265,7 @@ Ending Replay::conclude() {
   if (!alone_ || repeated_.runs == 0) {
     return node::conclude(options_.replay, modules_, comparison_, repeated_, store_, console_);
   }
-  if (const auto written = alone_->write(options_.replay.report); !written) {
+  if (const auto written = alone_->write(options_.replay.report, modules_.others()); !written) {
     console_.error("{}", written.error().text);
     return {kFailed, "the report cannot be written"};
   }
@@ -273,7 +273,10 @@ Ending Replay::conclude() {
 }
 
 Ending Replay::run() {
-  auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, store_);
+  if (const auto node = RecordedRuns::node_of(options_.replay.file, options_.replay.board); node) {
+    modules_.compare_with_node(*node);
+  }
+  auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, store_, modules_.others().former);
   if (!recorded) {
     console_.error("{}", recorded.error().text);
     return {recorded.error().code, "the recording cannot be replayed"};

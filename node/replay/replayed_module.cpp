@@ -4,23 +4,43 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/schema/carry.h"
+
 namespace indurop::node {
+
+const schema::Variable& variable_at(const vars::Store& store, std::uint32_t index) {
+  return store.schema().variables[store.directory()[index].schema_index];
+}
+
+std::vector<std::uint8_t> as_declared_now(const vars::Store& store, std::uint32_t index, const schema::Variable* former,
+                                          const std::vector<std::uint8_t>& bytes) {
+  if (former == nullptr) {
+    return bytes;
+  }
+  const vars::DirectoryEntry& entry = store.directory()[index];
+  const schema::Variable& variable = variable_at(store, index);
+  std::vector<std::uint8_t> now(entry.value_size);
+  (void)store.read(entry, 0, now);
+  (void)schema::carry_what_fits(variable.name, {former->type, former->unit}, bytes, {variable.type, variable.unit},
+                                now);
+  return now;
+}
 
 namespace {
 
 void write_known(vars::Store& store, const KnownValue& one) {
   const vars::DirectoryEntry& entry = store.directory()[one.variable];
   std::vector<std::uint8_t> now(entry.value_size);
-  if (one.has_value && store.read(entry, 0, now).ok() && now != one.bytes) {
-    (void)store.write(entry, 0, one.bytes);
+  if (!one.has_value || !store.read(entry, 0, now).ok()) {
+    return;
+  }
+  const std::vector<std::uint8_t> next = as_declared_now(store, one.variable, one.former, one.bytes);
+  if (now != next) {
+    (void)store.write(entry, 0, next);
   }
 }
 
 }  // namespace
-
-const schema::Variable& variable_at(const vars::Store& store, std::uint32_t index) {
-  return store.schema().variables[store.directory()[index].schema_index];
-}
 
 bool ReplayedModule::has_faulted() const noexcept {
   return died || state.record->state.load() == scheduler::ModuleState::Faulted;

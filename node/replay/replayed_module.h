@@ -22,10 +22,15 @@ namespace indurop::node {
 
 // The variable of an index in the store's directory.
 const schema::Variable& variable_at(const vars::Store& store, std::uint32_t index);
+// A recorded value as the store declares its variable. If its type has changed (`former`: how the recording declares
+// it; else null), these are the parts that fit, and the others as they are in the store.
+std::vector<std::uint8_t> as_declared_now(const vars::Store& store, std::uint32_t index, const schema::Variable* former,
+                                          const std::vector<std::uint8_t>& bytes);
 
 // The recorded values of one variable for a module.
 struct KnownValue {
   std::uint32_t variable = 0;
+  const schema::Variable* former = nullptr;  // declaration that these values have; null: that of the store
   bool read = false;
   bool written = false;
   bool always_read = false;  // by the configuration, whatever the module's code does

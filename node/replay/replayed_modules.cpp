@@ -6,6 +6,7 @@
 
 #include "config/check/determinism.h"
 #include "history/recording/cdr.h"
+#include "node/exchange/candidate.h"
 
 namespace indurop::node {
 namespace {
@@ -58,6 +59,18 @@ ReplayedModules::ReplayedModules(const Options& options, const Console& console,
 
 ReplayedModule* ReplayedModules::of_recording(std::uint32_t recorded) const noexcept {
   return is_recorded(recorded) ? of_recording_[recorded] : nullptr;
+}
+
+void ReplayedModules::compare_with_node(const std::string& node) {
+  if (const auto alone = checked_.alone; alone) {
+    const config::ModuleFacts& facts = checked_.check.facts[*alone];
+    others_ = other_declarations(node, uses_of(facts), facts.schema->variables);
+  }
+}
+
+const schema::Variable& ReplayedModules::recorded_declaration(std::uint32_t index) const {
+  const schema::Variable* const former = former_of(others_.former, store_.directory()[index].name_hash);
+  return former != nullptr ? *former : variable_at(store_, index);
 }
 
 void ReplayedModules::choose(const RecordedRuns& recorded) {
@@ -114,8 +127,10 @@ void ReplayedModules::match(const RecordedRuns& recorded) {
 void ReplayedModules::find_variables() {
   for (const config::VariableUse& use : checked_.check.uses) {
     const auto* entry = store_.find(abi::fnv1a64(use.name.data(), use.name.size()));
-    for (std::size_t i = 0; entry != nullptr && i < modules_.size(); ++i) {
+    const bool is_new = entry == nullptr || others_.appearing.contains(entry->name_hash);
+    for (std::size_t i = 0; !is_new && i < modules_.size(); ++i) {
       KnownValue known;
+      known.former = former_of(others_.former, entry->name_hash);
       known.variable = static_cast<std::uint32_t>(entry - store_.directory().data());
       known.read = names(use.readers, modules_[i]->name);
       known.written = names(use.writers, modules_[i]->name);
@@ -155,8 +170,9 @@ void ReplayedModules::write_first_outputs(const ReplayedModule& module) {
 
 bool ReplayedModules::take(const RecordedValue& value) {
   const vars::DirectoryEntry& entry = store_.directory()[value.variable];
-  const schema::Variable& variable = variable_at(store_, value.variable);
-  std::vector<std::uint8_t> bytes(entry.value_size);
+  const schema::Variable& variable = recorded_declaration(value.variable);
+  const schema::Variable* const former = former_of(others_.former, entry.name_hash);
+  std::vector<std::uint8_t> bytes(variable.type.size());
   if (!recording::from_cdr(variable.type, value.cdr, bytes)) {
     console_.error("a value of {} in the recording is damaged", variable.name);
     return false;
@@ -168,7 +184,7 @@ bool ReplayedModules::take(const RecordedValue& value) {
     return true;  // its own track has all that it reads
   }
   if (module == nullptr || !module->runs) {
-    (void)store_.write(entry, 0, bytes);
+    (void)store_.write(entry, 0, as_declared_now(store_, value.variable, former, bytes));
     return true;
   }
   const auto place = module->place.find(value.variable);

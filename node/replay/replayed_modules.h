@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "node/replay/other_declarations.h"
 #include "node/replay/recorded_runs.h"
 #include "node/replay/replayed_module.h"
 #include "node/run/checked.h"
@@ -26,6 +27,9 @@ class ReplayedModules {
   ReplayedModules(const Options& options, const Console& console, const Checked& checked, const Prepared& prepared,
                   const Loaded& loaded);
 
+  // Finds out which variables of the only module that runs its node does not have, or has with another type.
+  void compare_with_node(const std::string& node);
+  [[nodiscard]] const OtherDeclarations& others() const noexcept { return others_; }
   // Determines which modules run, and reports why others do not.
   void choose(const RecordedRuns& recorded);
   // Finds their variables, and the keyframes at which they begin.
@@ -54,6 +58,8 @@ class ReplayedModules {
   [[nodiscard]] const std::vector<std::unique_ptr<ReplayedModule>>& all() const noexcept { return modules_; }
 
  private:
+  // How the recording declares the variable of an index in the store's directory.
+  [[nodiscard]] const schema::Variable& recorded_declaration(std::uint32_t index) const;
   void match(const RecordedRuns& recorded);
   void find_variables();
   void learn_early_values();
@@ -75,6 +81,7 @@ class ReplayedModules {
   const std::vector<ModuleLibrary>& libraries_;
   std::vector<std::unique_ptr<ReplayedModule>> modules_;  // as in the configuration
   std::vector<ReplayedModule*> of_recording_;             // null: not in the configuration
+  OtherDeclarations others_;
   std::uint64_t begin_ns_ = 0;
   std::vector<RecordedRuns::EarlierValue> earlier_;  // the last ones before begin_ns_
 };

@@ -79,9 +79,17 @@ void onRun() {
 #elif defined(RELOAD_GAINS)
   nt::gained = nt::gained + 1;
   INDUROP_TYPEOF(nt::pair)::value_type both;
-  both.plus = runs_of_this_version;
-  both.minus = -runs_of_this_version;
+#if defined(RELOAD_KEPT)
+  const std::int64_t shown = counted;
+#else
+  const std::int64_t shown = runs_of_this_version;
+#endif
+  both.plus = shown;
+  both.minus = -shown;
   nt::pair = both;
+#if defined(RELOAD_SAME)
+  nt::walked = counted + (nt::gained - 11 - runs_of_this_version);
+#endif
 #endif
 #if defined(RELOAD_LARGE)
   much[counted % static_cast<std::int64_t>(sizeof much)] = 1;

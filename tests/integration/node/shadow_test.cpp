@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "node_fixture.h"
 #include "store/vars/node_lock.h"
+#include "store/vars/store.h"
 
 namespace indurop::test {
 namespace {
@@ -198,6 +203,132 @@ TEST_F(Shadow, Modules_that_cannot_be_exchanged_say_so) {
   EXPECT_EQ(process.code, 1) << process.err;
   EXPECT_CONTAINS(process.err, "it is a process");
   EXPECT_CONTAINS(indurop({"reload", "othr", "--shadow", "200ms", "--node", node()}).err, "Did you mean 'other'?");
+}
+
+// Versions that use variables which the node does not have, or has with another type.
+class ShadowOfOthers : public Shadow {
+ protected:
+  [[nodiscard]] std::uint64_t growths() const {
+    const auto store = vars::Store::attach(node(), vars::Mode::ReadOnly);
+    return store ? store->header().growths.load() : UINT64_MAX;
+  }
+  void expect_no_new_variables() {
+    expect_untouched();
+    EXPECT_EQ(growths(), 0U);
+    EXPECT_EQ(indurop({"get", "nt::gained", "--node", node()}).code, 1);
+  }
+  Program& start_moving() {
+    Program& program = start_and_wait({kOther, {.file = "layout_old.so", .name = "counter", .priority = 2}});
+    EXPECT_TRUE(runs_reach("counter", 300));
+    return program;
+  }
+};
+
+// Its outputs are those of the running version only if the new variables begin with their initial values, and each run
+// finds what the one before it has left there.
+TEST_F(ShadowOfOthers, New_variables_begin_with_initial_values_and_come_with_the_exchange) {
+  start_counting();
+  const Outcome dry = shadow(built("reload_gains_same"), {"--dry-run"});
+  EXPECT_EQ(dry.code, 0) << dry.out << dry.err;
+  EXPECT_CONTAINS(dry.out, "2 variables: equal");
+  EXPECT_CONTAINS(dry.out,
+                  "nt::gained, nt::pair and nt::limit are new in the shadow and began with initial values; nothing is "
+                  "compared with them");
+  expect_no_new_variables();
+  const Outcome done = shadow(built("reload_gains_same"), {"-o", "json"});
+  EXPECT_EQ(done.code, 0) << done.out << done.err;
+  const auto report = done.json();
+  const std::vector<std::string> all = {"nt::gained", "nt::pair", "nt::limit"};
+  EXPECT_EQ(report["shadow"]["new"].get<std::vector<std::string>>(), all);
+  EXPECT_GT(report["shadow"]["runs"], 500U);
+  EXPECT_EQ(module("counter").version.load(), 2U);
+  EXPECT_TRUE(wait_until([&] { return value<std::int64_t>("nt::gained") > 11 + 20; }));
+  EXPECT_EQ(growths(), 1U);
+  const auto output = value<std::int32_t>("nt::output");
+  EXPECT_GE(value<std::int64_t>("nt::walked"), output) << "they began with their initial values here, too";
+}
+
+TEST_F(ShadowOfOthers, New_variables_need_no_acceptance_and_other_differences_do) {
+  start_counting();
+  const Outcome refused = shadow(built("reload_gains"));
+  EXPECT_EQ(refused.code, 4) << refused.err;
+  EXPECT_CONTAINS(refused.err, "not exchanged: nt::walked differs in ");
+  EXPECT_FALSE(contains(refused.err, "gained")) << refused.err;
+  EXPECT_CONTAINS(refused.out, "nt::limit are new in the shadow");
+  expect_no_new_variables();
+  const Outcome done = shadow(built("reload_gains"), {"--accept", "walked <= inf, gained < 1"});
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_CONTAINS(done.out, "new       nt::gained, nt::pair, nt::limit (shared, initial values)");
+  EXPECT_EQ(indurop({"get", "nt::gained", "--node", node()}).code, 0);
+}
+
+TEST_F(ShadowOfOthers, A_shadow_that_is_killed_leaves_nothing_and_the_next_one_has_initial_values) {
+  SKIP_CRASHES_UNDER_TSAN();
+  start_counting();
+  const auto runs = [&] { return vars::running_node(node() + "-shadow"); };
+  for (const bool whole : {false, true}) {
+    Program client(
+        {INDUROP_PROGRAM, "reload", "counter", built("reload_gains_loops"), "--node", node(), "--shadow", "1500ms"},
+        environment());
+    ASSERT_TRUE(wait_until([&] { return runs() != 0; }));
+    if (whole) {
+      client.kill();
+    } else {
+      ASSERT_EQ(::kill(runs(), SIGKILL), 0);
+      EXPECT_EQ(client.wait(), 1);
+      EXPECT_CONTAINS(client.err(), "not exchanged: as a shadow of the running version, it was ended");
+    }
+    EXPECT_TRUE(wait_until([&] { return runs() == 0; }));
+    EXPECT_EQ(growths(), 0U);
+    EXPECT_EQ(indurop({"get", "nt::gained", "--node", node()}).code, 1);
+  }
+  const Outcome done = shadow(built("reload_gains_same"));
+  EXPECT_EQ(done.code, 0) << done.out << done.err;
+  EXPECT_CONTAINS(done.out, "2 variables: equal");
+  EXPECT_EQ(growths(), 1U);
+}
+
+TEST_F(ShadowOfOthers, Other_types_are_compared_as_the_node_has_them) {
+  start_moving();
+  const Outcome done = shadow(built("layout_wide"));
+  EXPECT_EQ(done.code, 0) << done.out << done.err;
+  EXPECT_CONTAINS(done.out, "1 variable: equal");
+  EXPECT_CONTAINS(done.out, "compared as the types that the node has: nt_layout::axis.speed and nt_layout::axis.x");
+  EXPECT_CONTAINS(done.out, "nt_layout::axis.more is new in the shadow");
+  EXPECT_CONTAINS(done.out, "converted nt_layout::axis.speed, nt_layout::axis.x");
+  EXPECT_EQ(module("counter").version.load(), 2U);
+  EXPECT_EQ(module("counter").faults.load(), 0U);
+}
+
+// The module adds 1 to what others have set.
+TEST_F(ShadowOfOthers, What_others_write_meanwhile_is_converted) {
+  start_moving();
+  const std::filesystem::path recordings = folder() / "recordings";
+  std::filesystem::create_directory(recordings);
+  Environment where = environment();
+  where.variables.push_back("TMPDIR=" + recordings.string());
+  Program sut({INDUROP_PROGRAM, "reload", "counter", built("layout_wide"), "--node", node(), "--shadow", "3s",
+               "--dry-run", "-o", "json"},
+              where);
+  ASSERT_TRUE(wait_until([&] { return has_file(recordings, "runs.mcap"); }));
+  for (const char* number : {"1000000", "-70000", "41"}) {
+    ASSERT_TRUE(runs_reach("counter", module("counter").runs.load() + 300));
+    ASSERT_EQ(indurop({"set", "nt_layout::axis.x", number, "--node", node()}).code, 0);
+  }
+  const Outcome done = sut.finish();
+  EXPECT_EQ(done.code, 0) << done.out << done.err;
+  const auto axis = variable(done.json()["shadow"], "nt_layout::axis");
+  EXPECT_EQ(axis["differing"], 0) << axis.dump();
+  EXPECT_GT(axis["compared"], 900);
+}
+
+TEST_F(ShadowOfOthers, Values_that_the_new_type_does_not_have_differ) {
+  start_moving();
+  const Outcome done = shadow(built("layout_narrow"));
+  EXPECT_EQ(done.code, 4) << done.out << done.err;
+  EXPECT_CONTAINS(done.err, "not exchanged: nt_layout::axis differs in ");
+  EXPECT_CONTAINS(shadow(built("layout_narrow"), {"--accept", "axis <= inf"}).err, "--lossy");
+  EXPECT_EQ(module("counter").version.load(), 1U);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 constexpr std::size_t kShownValue = 24;
+constexpr std::size_t kMostNames = 10;
 
 ShadowVariable variable_of(const JsonValue& json) {
   ShadowVariable variable;
@@ -109,6 +110,8 @@ std::optional<ShadowReport> read_shadow_report(const std::string& text) {
     variable.largest = kUnknown;
     report.variables.push_back(std::move(variable));
   }
+  base::read(*json, "new", report.added);
+  base::read(*json, "converted", report.converted);
   report.json = *json;
   return report;
 }
@@ -134,6 +137,7 @@ std::optional<std::string> objection(const ShadowReport& report, const AcceptedD
       texts.push_back(text_of(variable));
     }
   }
+  names.insert(names.end(), report.added.begin(), report.added.end());  // a rule for them is met
   if (const auto unmatched = accepted.unmatched(names); !unmatched.empty()) {
     return fmt::format("--accept: '{}' is for no variable that it writes", unmatched.front());
   }
@@ -149,6 +153,16 @@ void print_shadow(Context& context, const ShadowReport& report) {
   context.out.line(fmt::format("{}  {} of ticks {} to {}, {}{}", table.empty() ? "" : "\n", counted(report.runs, "run"),
                                report.first_tick, report.last_tick, counted(report.variables.size(), "variable"),
                                table.empty() ? ": equal" : ""));
+  if (!report.added.empty()) {
+    context.out.line(
+        fmt::format("  {} new in the shadow and began with initial values; nothing is compared with {}",
+                    base::enumerate(report.added, kMostNames) + (report.added.size() == 1 ? " is" : " are"),
+                    report.added.size() == 1 ? "it" : "them"));
+  }
+  if (!report.converted.empty()) {
+    context.out.line(
+        fmt::format("  compared as the types that the node has: {}", base::enumerate(report.converted, kMostNames)));
+  }
   if (report.disturbed_runs > 0) {
     context.out.line(fmt::format("  the inputs of {} changed while they ran", counted(report.disturbed_runs, "run")));
   }

@@ -48,7 +48,9 @@ struct ShadowReport {
   ShadowTimes now;                   // processor time of its runs
   ShadowTimes then;                  // of the version that runs, in the node
   std::vector<ShadowVariable> variables;
-  JsonValue json;  // as it was read
+  std::vector<std::string> added;      // that the node does not have: nothing is compared with them
+  std::vector<std::string> converted;  // that the node has with another type
+  JsonValue json;                      // as it was read
 };
 
 // Returns nothing if the text is not such a report.

@@ -51,6 +51,14 @@ TEST(ShadowReport, What_is_unclear_or_was_not_compared_is_not_equal) {
   EXPECT_THAT(why(gone), HasSubstr("a::y was not compared"));
 }
 
+TEST(ShadowReport, New_variables_need_no_rule_and_may_have_one) {
+  const ShadowReport sut = report(R"(, "new": ["a::y"], "converted": ["a::x.z"])", kEqual);
+  EXPECT_EQ(why(sut), "");
+  EXPECT_EQ(why(sut, "y <= 1"), "");
+  EXPECT_THAT(why(sut, "z <= 1"), HasSubstr("is for no variable"));
+  EXPECT_EQ(sut.added, std::vector<std::string>{"a::y"});
+}
+
 TEST(ShadowReport, A_difference_that_is_no_number_is_infinite) {
   const ShadowReport sut = report("", R"("compared": 9, "differing": 1, "unclear": 0, "largest": null)");
   EXPECT_TRUE(std::isinf(sut.variables.front().largest));
