@@ -5,6 +5,7 @@
 
 #include "history/recorder/run_words.h"
 #include "history/recorder/sources.h"
+#include "history/recorder/versions.h"
 
 namespace indurop::recorder {
 namespace {
@@ -28,10 +29,11 @@ Result<void, Problem> copy_attachments(const recording::McapReader& from, const 
   return {};
 }
 
+// `wanted`: by name.
 Result<void, Problem> copy_metadata(const recording::McapReader& from, const std::string& prefix,
-                                    recording::McapWriter& to) {
+                                    recording::McapWriter& to, bool (*wanted)(const std::string& name)) {
   for (const recording::McapMetadataIndex& index : from.contents().metadata) {
-    if (index.name.ends_with(kEndMetadata)) {
+    if (!wanted(index.name)) {
       continue;
     }
     const auto metadata = from.metadata(index);
@@ -80,7 +82,14 @@ Result<ChannelMap, Problem> copy_channels(const recording::McapReader& from, con
 Result<void, Problem> copy_about(const recording::McapReader& from, const std::string& prefix,
                                  recording::McapWriter& to) {
   auto attached = copy_attachments(from, prefix, to);
-  return attached ? copy_metadata(from, prefix, to) : attached;
+  return attached
+             ? copy_metadata(from, prefix, to, [](const std::string& name) { return !name.ends_with(kEndMetadata); })
+             : attached;
+}
+
+Result<void, Problem> copy_versions(const recording::McapReader& from, const std::string& prefix,
+                                    recording::McapWriter& to) {
+  return copy_metadata(from, prefix, to, [](const std::string& name) { return name.ends_with(kVersionMetadata); });
 }
 
 Result<ChannelMap, Problem> copy_frame(const recording::McapReader& from, const std::string& prefix,

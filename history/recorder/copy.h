@@ -31,6 +31,9 @@ Result<ChannelMap, base::Problem> copy_channels(const recording::McapReader& fro
 // Errors: those of the disk, or a part is damaged.
 Result<void, base::Problem> copy_about(const recording::McapReader& from, const std::string& prefix,
                                        recording::McapWriter& to);
+// Copies only which versions of modules' code ran: a part of a recording names those of its own runs.
+Result<void, base::Problem> copy_versions(const recording::McapReader& from, const std::string& prefix,
+                                          recording::McapWriter& to);
 // Copies schemas, channels, attachments and metadata.
 Result<ChannelMap, base::Problem> copy_frame(const recording::McapReader& from, const std::string& prefix,
                                              recording::McapWriter& to);

@@ -217,6 +217,11 @@ Result<void, Problem> copy_frames(Chain& chain, recording::McapWriter& writer) {
       return std::move(channels).error();
     }
     part.channels = *std::move(channels);
+    const bool is_last = &part == &chain.parts.back();
+    if (auto versions = is_last ? Result<void, Problem>() : copy_versions(part.reader, chain.prefix, writer);
+        !versions) {
+      return versions;
+    }
   }
   return copy_about(chain.parts.back().reader, chain.prefix, writer);
 }

@@ -13,7 +13,6 @@ void KeyframeQueue::follow(const std::shared_ptr<tape::KeyframeFollower>& follow
     const tape::KeyframeFollower::Module& module = follower->module(i);
     if (wanted(module.module)) {
       Waiting& waiting = waiting_[module.module];
-      waiting.channel = waiting.form == module.form ? waiting.channel : 0;
       waiting.form = module.form;
       waiting.follower = follower;
       waiting.index = i;
@@ -64,7 +63,7 @@ const std::string& KeyframeQueue::form(std::uint32_t module) const {
 
 void KeyframeQueue::begin_file() {
   for (auto& [module, waiting] : waiting_) {
-    waiting.channel = 0;
+    waiting.channels.clear();
   }
 }
 

@@ -25,8 +25,11 @@ class KeyframeQueue {
 
   // Returns the keyframe that a run of the module begins with; null: there is none. Those of earlier runs are dropped.
   const tape::Keyframe* of(std::uint32_t module, std::uint64_t run);
-  // The channel of the module's keyframes in the file that is being written; 0: none yet.
-  std::uint16_t& channel(std::uint32_t module) { return waiting_.at(module).channel; }
+  // The channel of the module's keyframes, as they are now, in the file that is being written; 0: none yet.
+  std::uint16_t& channel(std::uint32_t module) {
+    Waiting& waiting = waiting_.at(module);
+    return waiting.channels[waiting.form];
+  }
   // What the bytes of its keyframes are.
   [[nodiscard]] const std::string& form(std::uint32_t module) const;
   void begin_file();
@@ -36,7 +39,7 @@ class KeyframeQueue {
     std::shared_ptr<tape::KeyframeFollower> follower;
     std::size_t index = 0;  // in the follower
     std::string form;
-    std::uint16_t channel = 0;
+    std::map<std::string, std::uint16_t> channels;  // by form; 0: none yet
     std::deque<tape::Keyframe> keyframes;
   };
   void follow(const std::shared_ptr<tape::KeyframeFollower>& follower,

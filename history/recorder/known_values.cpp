@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known before the runs of a file: the first values, the last ones of each module, and the version of its code.
+// What precedes the runs of a file: channels, the first values, the last ones of each module, and the version of its
+// code.
 
 #include "history/recorder/recorder.h"
 #include "history/recorder/run_words.h"
@@ -8,6 +9,30 @@
 namespace indurop::recorder {
 
 using base::Problem;
+
+// Adds the channels of runs, of the clock and of other inputs.
+Result<void, Problem> Recorder::add_own_channels() {
+  recording::TextMap modules;
+  for (std::size_t i = 0; i < about_.modules.size(); ++i) {
+    modules[std::to_string(i)] = about_.modules[i];
+  }
+  const auto add = [&](std::string_view name, std::string_view idl, std::string_view topic,
+                       std::uint16_t& to) -> Result<void, Problem> {
+    auto schema = writer_->add_schema(name, "omgidl", idl);
+    if (!schema) {
+      return std::move(schema).error();
+    }
+    auto channel = writer_->add_channel(*schema, prefix_ + std::string(topic), "cdr", modules);
+    if (!channel) {
+      return std::move(channel).error();
+    }
+    to = *channel;
+    return {};
+  };
+  auto runs = add(kRunSchema, kRunIdl, kRunsTopic, runs_channel_);
+  auto clock = runs ? add(kClockSchema, kClockIdl, kClockTopic, clock_channel_) : runs;
+  return clock ? add(kAnswerSchema, kAnswerIdl, kAnswerTopic, answer_channel_) : clock;
+}
 
 void Recorder::note(std::size_t track, const tape::Run& run) {
   Known& known = known_[track];

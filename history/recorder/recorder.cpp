@@ -31,6 +31,14 @@ bool is_wanted(const std::vector<std::string>& globs, const std::string& name) {
                                       [&name](const std::string& glob) { return schema::glob_match(glob, name); });
 }
 
+// The name that a variable has on the tape: the store calls it otherwise while another type has that name.
+const std::string& name_on_tape(const vars::Store& store, const tape::Follower& tape, std::uint32_t index) {
+  const auto taped = tape.variables();
+  const vars::DirectoryEntry* const named = index < taped.size() ? store.find(taped[index].name_hash) : nullptr;
+  const vars::DirectoryEntry& entry = named != nullptr ? *named : store.directory()[index];
+  return store.schema().variables[entry.schema_index].name;
+}
+
 recording::View view(const std::string& text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
@@ -122,10 +130,11 @@ void Recorder::add_places() {
   for (auto i = static_cast<std::uint32_t>(places_.size()); i < count; ++i) {
     const tape::TapeVariable& taped = follower_.variables()[i];
     const schema::Type& type = variable(i).type;
-    const bool wanted = is_wanted(globs_, variable(i).name);
-    std::erase(missing_.appeared, variable(i).name);
+    const std::string& name = name_on_tape(*store_, follower_, i);
+    const bool wanted = is_wanted(globs_, name);
+    std::erase(missing_.appeared, name);
     if (wanted && taped.taped == 0) {
-      missing_.too_large.push_back(variable(i).name);
+      missing_.too_large.push_back(name);
     }
     places_.push_back({wanted && taped.taped != 0, recording::lies_as_cdr(type) && type.size() == taped.size, 0});
   }
@@ -170,30 +179,6 @@ Result<void, Problem> Recorder::begin_file() {
   return writer_->metadata(prefix_ + kNodeMetadata, metadata_values);
 }
 
-// Adds the channels of runs, of the clock and of other inputs.
-Result<void, Problem> Recorder::add_own_channels() {
-  recording::TextMap modules;
-  for (std::size_t i = 0; i < about_.modules.size(); ++i) {
-    modules[std::to_string(i)] = about_.modules[i];
-  }
-  const auto add = [&](std::string_view name, std::string_view idl, std::string_view topic,
-                       std::uint16_t& to) -> Result<void, Problem> {
-    auto schema = writer_->add_schema(name, "omgidl", idl);
-    if (!schema) {
-      return std::move(schema).error();
-    }
-    auto channel = writer_->add_channel(*schema, prefix_ + std::string(topic), "cdr", modules);
-    if (!channel) {
-      return std::move(channel).error();
-    }
-    to = *channel;
-    return {};
-  };
-  auto runs = add(kRunSchema, kRunIdl, kRunsTopic, runs_channel_);
-  auto clock = runs ? add(kClockSchema, kClockIdl, kClockTopic, clock_channel_) : runs;
-  return clock ? add(kAnswerSchema, kAnswerIdl, kAnswerTopic, answer_channel_) : clock;
-}
-
 Result<std::uint16_t, Problem> Recorder::schema_of(std::string_view name, const std::string& idl) {
   std::uint16_t& schema = schemas_[idl];
   if (schema == 0) {
@@ -216,7 +201,8 @@ Result<std::uint16_t, Problem> Recorder::channel_of(std::uint32_t index) {
   if (!schema) {
     return schema;
   }
-  auto channel = writer_->add_channel(*schema, prefix_ + known.name, "cdr", metadata_of(known));
+  auto channel =
+      writer_->add_channel(*schema, prefix_ + name_on_tape(*store_, follower_, index), "cdr", metadata_of(known));
   if (channel) {
     places_[index].channel = *channel;
   }

@@ -25,7 +25,9 @@ void ExchangeContext::offer_to_track(std::uint32_t module, const ModuleLibrary& 
   }
   std::vector<tape::VariableUse> uses;
   for (const auto& [name, use] : version.uses()) {
-    if (const vars::DirectoryEntry* const entry = parts.store.find(name); entry != nullptr) {
+    // The place that now has the name of a variable whose type changes is not the one that this version uses.
+    const vars::DirectoryEntry* const entry = parts.store.find(name);
+    if (entry != nullptr && entry->type_hash == use.type) {
       uses.push_back({static_cast<std::uint32_t>(entry - parts.store.directory().data()), use.reads, use.writes});
     }
   }

@@ -36,8 +36,7 @@ Replay::Replay(const Options& options, Console& console, base::StopSignal& signa
 
 bool Replay::begin(const RecordedRuns& recorded) {
   modules_.find_begin();
-  versions_.begin(modules_);
-  const bool any = modules_.look_ahead();
+  const bool any = versions_.begin(modules_) && modules_.look_ahead();
   const explain::Facts facts = recorded.facts();
   print_notes(checked_, modules_, recorded, facts, console_);
   comparison_.expect_forces(ForcedThen(facts.orders));

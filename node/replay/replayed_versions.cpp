@@ -158,7 +158,7 @@ void ReplayedVersions::report_missing(const ReplayedModule& module, const record
       there ? fmt::format(" (the file that is there now has {})", there->digest) : "", where, module.name);
 }
 
-void ReplayedVersions::begin(const ReplayedModules& modules) {
+bool ReplayedVersions::begin(const ReplayedModules& modules) {
   std::map<std::uint32_t, std::uint64_t> first_runs;  // by module
   auto recorded = all_.empty() ? Unfit{} : RecordedRuns::open(options_.replay.file, options_.replay.board, store_);
   if (recorded) {
@@ -180,11 +180,16 @@ void ReplayedVersions::begin(const ReplayedModules& modules) {
     versions.at = index_at(versions.order, first_runs[index]);
     module.lacks_version = versions.current().file.empty();
     if (!module.lacks_version) {
+      // An earlier version of the same file has been loaded instead of it.
+      if (versions.current().library.functions().run == nullptr && !load_again(module, versions.current())) {
+        return false;
+      }
       show(module, versions);
       versions.by_number.erase(0);  // the file of the configuration is not needed
     }
     versions.by_number[versions.held].started = true;  // with all modules
   }
+  return true;
 }
 
 // The module's code is that of this version from now on.

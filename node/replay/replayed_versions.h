@@ -32,8 +32,9 @@ class ReplayedVersions {
   bool load(const RecordedRuns& recorded, const ReplayedModules& modules);
   // Returns true if each run of the module is repeated by the version that it was one of.
   [[nodiscard]] bool follows(const ReplayedModule& module) const { return all_.contains(module.index); }
-  // Lets the modules begin with the versions of their first runs that are read; before any module is started.
-  void begin(const ReplayedModules& modules);
+  // Lets the modules begin with the versions of their first runs that are read; before any module is started. Returns
+  // false, after an error, if one cannot be loaded.
+  bool begin(const ReplayedModules& modules);
 
   // Before each run: lets another version follow if this run is its first one. Returns false, after an error, if the
   // replay cannot continue.

@@ -5,7 +5,7 @@ channel's messages, the records of runs of indurop/runs, and metadata records.""
 import ctypes
 import struct
 
-CHUNK_INDEX, CHANNEL, METADATA_INDEX = 8, 4, 13
+SCHEMA, CHANNEL, CHUNK_INDEX, METADATA_INDEX = 3, 4, 8, 13
 
 
 class McapFile:
@@ -14,20 +14,25 @@ class McapFile:
         footer = len(self.bytes) - 8 - 20
         summary = struct.unpack_from("<Q", self.bytes, footer)[0]
         self.topics, self.metadata, self.chunks, self.records = {}, {}, [], []
+        self.schemas, schemas = {}, {0: b""}  # what it says about the type: by channel, by number
         at = summary
         while at < footer - 9:
             opcode, length = struct.unpack_from("<BQ", self.bytes, at)
             content = self.bytes[at + 9:at + 9 + length]
             if opcode == CHANNEL:
                 self._take_channel(content)
+            elif opcode == SCHEMA:
+                schemas[struct.unpack_from("<H", content)[0]] = content[2:]
             elif opcode == CHUNK_INDEX:
                 self.chunks.append(Chunk(content))
             elif opcode == METADATA_INDEX:
                 self._take_metadata(struct.unpack_from("<Q", content)[0])
             at += 9 + length
+        self.schemas = {channel: schemas[schema] for channel, schema in self.schemas.items()}
 
     def _take_channel(self, content):
-        number = struct.unpack_from("<H", content)[0]
+        number, schema = struct.unpack_from("<HH", content)
+        self.schemas[number] = schema
         topic, at = text_at(content, 4)
         _, at = text_at(content, at)
         self.topics[number], self.metadata[number] = topic, map_at(content, at)

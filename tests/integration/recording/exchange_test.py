@@ -24,8 +24,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
 from mcap_file import McapFile  # noqa: E402
 
 # What nt::walked is of nt::output.
-FACTORS = {"same": 1, "other": -1, "fresh": -1, "less": -1, "grown": -1, "by": -1, "by_other": -2, "gains": -1, "throws": -1,
-           "large": -1}
+FACTORS = {"same": 1, "other": -1, "fresh": -1, "less": -1, "grown": -1, "by": -1, "by_other": -2, "gains": -1, "gains_kept": -1,
+           "throws": -1, "large": -1}
 REJECTED = ["bad_start", "threads", "more_access"]
 
 

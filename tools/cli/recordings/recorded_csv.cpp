@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/csv_row.h"
 #include "core/schema/schema.h"
@@ -19,10 +21,11 @@ namespace {
 
 using base::Problem;
 
-// A channel with its values as columns.
+// A channel with its values as columns. Channels of one variable whose type has changed have those of one name in
+// common.
 struct Columns {
   std::vector<recording::IdlLeaf> layout;
-  std::size_t first = 0;
+  std::vector<std::size_t> places;  // in the row, by leaf
 };
 
 class CsvSheet {
@@ -67,13 +70,16 @@ class CsvSheet {
     if (columns == columns_.end() || !recording::read_leaf_texts(columns->second.layout, message.data.view, texts_)) {
       return;
     }
-    const auto begin = cells_.begin() + static_cast<std::ptrdiff_t>(columns->second.first);
-    if (std::equal(texts_.begin(), texts_.end(), begin)) {
+    const std::vector<std::size_t>& places = columns->second.places;
+    if (std::equal(texts_.begin(), texts_.end(), places.begin(), places.end(),
+                   [this](const std::string& text, std::size_t place) { return text == cells_[place]; })) {
       return;
     }
     const auto time = static_cast<std::int64_t>(message.log_time_ns);
     write_rows_before(time);
-    std::copy(texts_.begin(), texts_.end(), begin);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      cells_[places[i]] = texts_[i];
+    }
     time_ns_ = time_ns_ ? time_ns_ : time;
     changed_ = true;
     changed_ns_ = time;
@@ -102,10 +108,15 @@ class CsvSheet {
   void add(std::uint16_t id, const recording::McapChannel& channel, std::vector<recording::IdlLeaf> layout) {
     const auto unit = channel.metadata.find("unit");
     const bool shown = options_.units && unit != channel.metadata.end();
-    Columns columns{std::move(layout), heading_.size()};
+    Columns columns{std::move(layout), {}};
     for (const recording::IdlLeaf& leaf : columns.layout) {
       const std::string name = channel.topic + leaf.name;
-      heading_.push_back(shown ? fmt::format("{} [{}]", name, unit->second) : name);
+      const std::string title = shown ? fmt::format("{} [{}]", name, unit->second) : name;
+      const auto [known, is_new] = by_title_.emplace(title, heading_.size());
+      columns.places.push_back(known->second);
+      if (is_new) {
+        heading_.push_back(title);
+      }
     }
     columns_.emplace(id, std::move(columns));
   }
@@ -139,6 +150,7 @@ class CsvSheet {
   const CsvOptions& options_;
   std::map<std::uint16_t, Columns> columns_;
   std::vector<std::string> heading_;
+  std::map<std::string, std::size_t> by_title_;  // places in it
   std::vector<std::string> cells_;
   std::vector<std::string> texts_;
   std::optional<std::int64_t> time_ns_;  // time of the next row, with --every
