@@ -18,6 +18,7 @@ namespace {
 struct Step {
   std::string_view name;  // empty: an index
   std::uint64_t index = 0;
+  std::string_view digits;    // the index as it is written
   bool after_colons = false;  // "::" precedes the name: it cannot be a field
 };
 
@@ -56,16 +57,17 @@ Failure split(std::string_view whole, Path& path) {
         return syntax(whole,
                       rest.empty() ? "the end is missing" : fmt::format("no name begins with '{}'", rest.front()));
       }
-      path.steps.push_back({rest.substr(0, length), 0, after_colons});
+      path.steps.push_back({rest.substr(0, length), 0, {}, after_colons});
       rest.remove_prefix(length);
     } else {
       std::uint64_t index = 0;
       const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), index);
-      rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
+      const std::string_view digits = rest.substr(0, static_cast<std::size_t>(end - rest.data()));
+      rest.remove_prefix(digits.size());
       if (error == std::errc::invalid_argument || !consume(rest, "]")) {
         return syntax(whole, "an index is a whole number in brackets");
       }
-      path.steps.push_back({{}, error == std::errc() ? index : UINT64_MAX, false});
+      path.steps.push_back({{}, error == std::errc() ? index : UINT64_MAX, digits, false});
     }
     if (rest.empty()) {
       break;
@@ -95,7 +97,7 @@ std::string join(const std::vector<Step>& steps, std::size_t count) {
 std::string shown(const Variable& variable, const std::vector<Step>& steps, std::size_t first, std::size_t count) {
   std::string out = variable.name;
   for (std::size_t i = first; i < count; ++i) {
-    out += steps[i].name.empty() ? fmt::format("[{}]", steps[i].index) : fmt::format(".{}", steps[i].name);
+    out += steps[i].name.empty() ? fmt::format("[{}]", steps[i].digits) : fmt::format(".{}", steps[i].name);
   }
   return out;
 }
@@ -141,12 +143,12 @@ class Walk {
     const bool of_text = dim_ == type_->dims.size() && type_->base == Base::Text && !in_text_;
     if (dim_ == type_->dims.size() && !of_text) {
       return {Errc::InvalidArgument, fmt::format("{} is a {}, not an array; leave out the [{}]", here(step),
-                                                 in_text_ ? "char" : element_name(*type_), steps_[step].index)};
+                                                 in_text_ ? "char" : element_name(*type_), steps_[step].digits)};
     }
     const std::uint32_t bound = of_text ? type_->text_size : type_->dims[dim_];
     if (steps_[step].index >= bound) {
       return {Errc::OutOfRange, fmt::format("index {} is outside {}, which has {} element{}: 0 to {}",
-                                            steps_[step].index, here(step), bound, bound == 1 ? "" : "s", bound - 1)};
+                                            steps_[step].digits, here(step), bound, bound == 1 ? "" : "s", bound - 1)};
     }
     const std::uint64_t stride = of_text ? 1 : stride_of(*type_, dim_);
     place_.offset += static_cast<std::uint32_t>(steps_[step].index * stride);

@@ -180,8 +180,15 @@ class Parser {
     return &*found;
   }
 
-  bool boolean(std::uint8_t* to) {
+  // A word, or what is there instead of one: a message must show it.
+  std::string_view word() {
+    constexpr std::size_t kShown = 20;
     const std::string_view text = cursor_.word();
+    return text.empty() ? cursor_.rest().substr(0, kShown) : text;
+  }
+
+  bool boolean(std::uint8_t* to) {
+    const std::string_view text = word();
     if (text != "true" && text != "false" && text != "0" && text != "1") {
       return fail(Errc::InvalidArgument, fmt::format("'{}' is not a bool; write true, false, 1 or 0", text));
     }
@@ -204,7 +211,7 @@ class Parser {
 
   template <class T>
   bool integer(const Type& type, std::uint8_t* to) {
-    const std::string_view text = cursor_.word();
+    const std::string_view text = word();
     bool negative = false;
     std::uint64_t amount = 0;
     const Errc read = read_integer(text, negative, amount);
@@ -225,7 +232,7 @@ class Parser {
 
   template <class T>
   bool real(const Type& type, std::uint8_t* to) {
-    const std::string_view text = cursor_.word();
+    const std::string_view text = word();
     const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
     const std::string_view digits = text.substr(plus ? 1 : 0);
     T number{};
@@ -253,7 +260,7 @@ class Parser {
         return false;
       }
     } else {
-      text = cursor_.word();
+      text = word();
     }
     const std::size_t scope = text.rfind("::");
     const std::string name = scope == std::string::npos ? text : text.substr(scope + 2);
@@ -290,7 +297,7 @@ class Parser {
       *to = static_cast<std::uint8_t>(c.code);
       return c.code <= 0xFF || fail(Errc::OutOfRange, "a char holds one byte");
     }
-    const std::string_view text = cursor_.word();
+    const std::string_view text = word();
     bool negative = false;
     std::uint64_t amount = 0;
     const Errc read = read_integer(text, negative, amount);

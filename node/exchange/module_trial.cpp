@@ -3,27 +3,44 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 
+#include "core/rt/clock.h"
 #include "node/modules/module_library.h"
 #include "node/modules/trampoline.h"
 
 namespace indurop::node {
 namespace {
 
-constexpr int kTrialLimitMs = 10'000;
+constexpr std::chrono::seconds kTrialLimit{10};
+constexpr std::chrono::milliseconds kTrialPoll{1};
 // Not one that a static constructor is likely to pass to exit().
 constexpr int kWasLoaded = 93;
+constexpr int kNotRun = 127;  // see become_module()
 
-std::string describe_end(int status) {
+// Returns the status of its end; nothing if it has not ended within the limit.
+std::optional<int> wait_for_end(pid_t process) {
+  const rt::MonoTime end = rt::MonoClock::now() + kTrialLimit;
+  int status = 0;
+  while (::waitpid(process, &status, WNOHANG) != process) {
+    if (rt::MonoClock::now() > end) {
+      return std::nullopt;
+    }
+    rt::sleep_until(rt::MonoClock::now() + kTrialPoll);
+  }
+  return status;
+}
+
+}  // namespace
+
+std::string trial_failure(int status) {
   if (WIFSIGNALED(status)) {
     const int number = WTERMSIG(status);
     return fmt::format(
@@ -31,27 +48,20 @@ std::string describe_end(int status) {
         "constructors crashes or throws",
         number, ::strsignal(number));  // NOLINT(concurrency-mt-unsafe): glibc's is safe
   }
-  return WEXITSTATUS(status) == kWasLoaded
-             ? std::string()
-             : fmt::format(
-                   "a process that loaded it ended with exit code {}: one of its static constructors calls "
-                   "exit()",
-                   WEXITSTATUS(status));
+  switch (WEXITSTATUS(status)) {
+    case kWasLoaded:
+      return {};
+    case kNotRun:
+      return fmt::format(
+          "no process could be started to load it first (exit code {}): indurop-node cannot be executed again, or a "
+          "static constructor of the file calls exit({})",
+          kNotRun, kNotRun);
+    default:
+      return fmt::format(
+          "a process that loaded it ended with exit code {}: one of its static constructors calls exit()",
+          WEXITSTATUS(status));
+  }
 }
-
-// Returns false if it has not ended within the limit.
-bool wait_for_end(pid_t process) {
-  const auto descriptor = static_cast<int>(::syscall(SYS_pidfd_open, process, 0));  // <sys/pidfd.h> is not for C++
-  pollfd ends{descriptor, POLLIN, 0};
-  int ready = 0;
-  do {
-    ready = ::poll(&ends, 1, kTrialLimitMs);
-  } while (ready < 0 && errno == EINTR);
-  ::close(descriptor);
-  return ready == 1;
-}
-
-}  // namespace
 
 std::string try_module(const std::filesystem::path& file) {
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -63,19 +73,15 @@ std::string try_module(const std::filesystem::path& file) {
                                .output = nowhere});
   ::close(nowhere);
   if (!started) {
-    return fmt::format("no process could be started to load it first: {}", started.error().where);
+    return fmt::format("no process could be started to load it first: {}", describe(started.error()));
   }
-  const bool ended = wait_for_end(*started);
-  if (!ended) {
-    ::kill(*started, SIGKILL);
+  if (const auto status = wait_for_end(*started); status) {
+    return trial_failure(*status);
   }
-  int status = 0;
-  ::waitpid(*started, &status, 0);
-  return ended ? describe_end(status)
-               : fmt::format(
-                     "a process that loads it does not end within {} s: one of its static constructors does "
-                     "not return",
-                     kTrialLimitMs / 1000);
+  ::kill(*started, SIGKILL);
+  ::waitpid(*started, nullptr, 0);
+  return fmt::format("a process that loads it does not end within {} s: one of its static constructors does not return",
+                     kTrialLimit.count());
 }
 
 void load_on_trial(int argc, char** argv) {

@@ -13,6 +13,9 @@ namespace indurop::node {
 // loading it in this process does not report. Waits for 10 s at most. Not real-time safe; only in indurop-node.
 std::string try_module(const std::filesystem::path& file);
 
+// What the status with which that process ended says about the file; empty: it was loaded.
+std::string trial_failure(int status);
+
 inline constexpr const char* kTrialFlag = "--try-module";
 // main() of that process: argv = {self, kTrialFlag, file}.
 [[noreturn]] void load_on_trial(int argc, char** argv);

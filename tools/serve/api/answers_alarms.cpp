@@ -33,7 +33,7 @@ Result<alarms::AlarmOrder, std::string> read_order(const Call& call, alarms::Ala
     return std::string("name the alarms: alarms, or all");
   }
   if (what == alarms::AlarmEvent::Shelved && order.for_ns <= 0) {
-    return std::string("for_ns is a number of nanoseconds greater than 0");
+    return std::string("for_ns is a whole number of nanoseconds from 1 to 9223372036854775807");
   }
   return order;
 }

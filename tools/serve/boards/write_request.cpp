@@ -28,7 +28,7 @@ Result<WriteRequest, std::string> read_write_request(const std::string& body) {
     return std::string("lease and for_ns are two ways of ending: choose one");
   }
   if (json->find("for_ns") != nullptr && (!base::read(*json, "for_ns", request.for_ns) || request.for_ns <= 0)) {
-    return std::string("for_ns is a number of nanoseconds greater than 0");
+    return std::string("for_ns is a whole number of nanoseconds from 1 to 9223372036854775807");
   }
   if (const base::Json* const values = json->find("values")) {
     if (!values->is_object() || values->values().empty()) {

@@ -133,7 +133,10 @@ TEST_F(Place_of_a_name, Unknown_names_get_the_nearest) {
 TEST_F(Place_of_a_name, Wrong_indices_and_forms_say_what_to_do) {
   EXPECT_EQ(failed("joints[10].x"), Errc::OutOfRange);
   EXPECT_EQ(message_, "index 10 is outside knu::Robot::joints, which has 10 elements: 0 to 9");
-  EXPECT_EQ(failed("joints[99999999999999999999]"), Errc::OutOfRange);
+  EXPECT_EQ(failed("joints[99999999999999999999].x"), Errc::OutOfRange);
+  EXPECT_EQ(message_, "index 99999999999999999999 is outside knu::Robot::joints, which has 10 elements: 0 to 9");
+  EXPECT_EQ(failed("tick[99999999999999999999]"), Errc::InvalidArgument);
+  EXPECT_EQ(message_, "knu::Robot::tick is a uint32_t, not an array; leave out the [99999999999999999999]");
   EXPECT_EQ(failed("tick[0]"), Errc::InvalidArgument);
   EXPECT_EQ(message_, "knu::Robot::tick is a uint32_t, not an array; leave out the [0]");
   EXPECT_EQ(failed("grid[0][0][0]"), Errc::InvalidArgument);

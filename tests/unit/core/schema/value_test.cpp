@@ -165,6 +165,7 @@ TEST(Value, Bool_is_a_word_or_a_digit) {
   EXPECT_EQ(parsed(number(Base::Bool), "1").bytes, Bytes{1});
   EXPECT_EQ(parsed(number(Base::Bool), "0").bytes, Bytes{0});
   EXPECT_EQ(format_value(number(Base::Bool), Bytes{0x80}), "true");
+  EXPECT_EQ(parsed(number(Base::Bool), "[true]").message, "'[true]' is not a bool; write true, false, 1 or 0");
   EXPECT_EQ(parsed(number(Base::Bool), "2").message, "'2' is not a bool; write true, false, 1 or 0");
 }
 
@@ -293,6 +294,17 @@ TEST(Value, Fields_may_come_in_any_order_quoted_or_be_left_out) {
   EXPECT_THAT(parsed(robot_type(), "{mdoe: 1}").message,
               HasSubstr("robot_t has no field 'mdoe'; did you mean 'mode'?"));
   EXPECT_THAT(parsed(robot_type(), "{points: [{x: a}]}").message, HasSubstr("points[0].x: 'a' is not a number"));
+}
+
+// JSON that is no word: an object where a number must be, for example.
+TEST(Value, What_is_no_word_is_shown_as_it_is_written) {
+  EXPECT_EQ(parsed(number(Base::Int64), R"({"a":1})").message,
+            R"('{"a":1}' is not a whole number; int64_t takes -9223372036854775808 to 9223372036854775807)");
+  EXPECT_EQ(parsed(number(Base::Double), R"({"x":1})").message,
+            R"('{"x":1}' is not a number; write it like 2, 0.5 or 1e-3)");
+  EXPECT_THAT(parsed(mode_type(), "[1]").message, HasSubstr("'[1]' is not a value of"));
+  EXPECT_THAT(parsed(number(Base::Char), "{}").message, HasSubstr("'{}' is not a char"));
+  EXPECT_THAT(parsed(number(Base::Int32, {2}), "[1, {a: 2}]").message, HasSubstr("[1]: '{a: 2}]' is not a whole"));
 }
 
 TEST(Value, Every_truncation_of_a_value_is_refused) {

@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace indurop::serve {
 namespace {
 
@@ -15,6 +20,15 @@ TEST(WriteRequests, Are_read) {
   EXPECT_TRUE(sut->lease);
   EXPECT_EQ(sut->for_ns, 0);
   EXPECT_EQ(read_write_request(R"({"names":["a"],"all":false})")->names, std::vector<std::string>{"a"});
+}
+
+TEST(WriteRequests, With_a_time_that_is_none_say_which_times_there_are) {
+  for (const char* const time : {"0", "-1", "0.5", "1e30", "99999999999999999999", "\"5s\""}) {
+    const auto sut = read_write_request(R"({"values":{"a":1},"for_ns":)" + std::string(time) + "}");
+    ASSERT_FALSE(sut) << time;
+    EXPECT_EQ(sut.error(), "for_ns is a whole number of nanoseconds from 1 to 9223372036854775807") << time;
+  }
+  EXPECT_EQ(read_write_request(R"({"values":{"a":1},"for_ns":9223372036854775807})")->for_ns, INT64_MAX);
 }
 
 // What is not understood is never left out: a force would be held for ever.
