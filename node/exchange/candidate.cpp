@@ -80,13 +80,20 @@ class CandidateCheck {
     }
   }
 
+  // A running module is not given new variables only on a board of a plant.
+  [[nodiscard]] std::string not_here(const std::string& name) const {
+    return task_.running.digest().empty()
+               ? fmt::format("variable {} is not one of this node; restart the node with the new version", name)
+               : fmt::format(
+                     "variable {} is not one of this board, and the others would not know it; `indurop deploy` brings "
+                     "new variables to all boards of a plant without a restart",
+                     name);
+  }
+
   void check_variable(const schema::Variable& variable, const schema::Access& access) {
     const vars::DirectoryEntry* entry = task_.store.find(variable.name_hash());
     if (entry == nullptr) {
-      return task_.may_grow ? void()
-                            : error(fmt::format("variable {} is not one of this node; restart the node with the new "
-                                                "version, or let `indurop deploy` bring it to a plant",
-                                                variable.name));
+      return task_.may_grow ? void() : error(not_here(variable.name));
     }
     const schema::Variable& known = task_.store.schema().variables[entry->schema_index];
     const bool changes = task_.may_grow && !task_.others.empty();  // then it was checked before

@@ -28,6 +28,29 @@ TEST_F(Flow, New_variables_are_sent_from_their_first_run_on_and_the_nodes_go_on)
   expect_sound(judge);
 }
 
+TEST_F(Flow, A_reload_of_one_board_names_the_deployment_that_brings_new_variables) {
+  const std::string file = std::string(FLOW_FOLDER) + "/source_new.so";
+  for (const bool dry : {true, false}) {
+    std::vector<std::string> words = {"reload", "source", file, "--board", board("a"), "--health", "0s"};
+    if (dry) {
+      words.emplace_back("--dry-run");
+    }
+    const Outcome refused = indurop(words);
+    EXPECT_EQ(refused.code, 4) << refused.out << refused.err;
+    EXPECT_THAT(refused.err, HasSubstr("variable xt::flow is not one of this board"));
+    EXPECT_THAT(refused.err, HasSubstr("variable xt::wide is not one of this board"));
+    EXPECT_THAT(refused.err, HasSubstr("`indurop deploy` brings new variables to all boards of a plant"));
+    EXPECT_THAT(refused.err, testing::Not(HasSubstr("restart the node")));
+  }
+  EXPECT_EQ(SeenNode(board("a")).find("xt::flow"), std::nullopt) << "nothing was changed";
+  expect_untouched();
+  bring("new", "new");
+  const Outcome done = deploy(plant());
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_TRUE(flows());
+  expect_untouched();
+}
+
 TEST_F(Flow, A_rollback_and_the_way_forward_leave_the_nodes_running) {
   Judge judge(board("b"));
   bring("new", "new");
