@@ -15,6 +15,7 @@
 #include "core/rt/clock.h"
 #include "node/modules/module_library.h"
 #include "node/modules/trampoline.h"
+#include "node/run/ending.h"
 
 namespace indurop::node {
 namespace {
