@@ -5,8 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <sstream>
+#include <string>
 
 #include "command_cell.h"
 #include "limit_judge.h"
