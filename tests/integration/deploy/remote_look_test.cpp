@@ -300,8 +300,10 @@ TEST_F(RemoteLook, What_a_node_did_before_it_died_is_kept) {
   const pid_t first = vars::running_node(board("a"));
   ::kill(first, SIGKILL);
   const std::filesystem::path kept = folder() / "state" / board("a") / "blackbox";
-  ASSERT_TRUE(
-      wait_until([&] { return vars::running_node(board("a")) > 0 && vars::running_node(board("a")) != first; }));
+  ASSERT_TRUE(wait_until([&] {
+    const pid_t next = vars::running_node(board("a"));
+    return next > 0 && next != first;
+  }));
   ASSERT_TRUE(std::filesystem::exists(kept));
   const std::string file = std::filesystem::directory_iterator(kept)->path();
   const Outcome status = indurop_here({"status", "--from", file, "-o", "json"});
