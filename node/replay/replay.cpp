@@ -272,8 +272,10 @@ Ending Replay::conclude() {
 }
 
 Ending Replay::run() {
-  if (const auto node = RecordedRuns::node_of(options_.replay.file, options_.replay.board); node) {
-    modules_.compare_with_node(*node);
+  if (checked_.alone) {
+    if (const auto node = RecordedRuns::node_of(options_.replay.file, options_.replay.board); node) {
+      modules_.compare_with_node(*node, *checked_.alone);
+    }
   }
   auto recorded = RecordedRuns::open(options_.replay.file, options_.replay.board, store_, modules_.others().former);
   if (!recorded) {

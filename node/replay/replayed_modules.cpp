@@ -61,11 +61,9 @@ ReplayedModule* ReplayedModules::of_recording(std::uint32_t recorded) const noex
   return is_recorded(recorded) ? of_recording_[recorded] : nullptr;
 }
 
-void ReplayedModules::compare_with_node(const std::string& node) {
-  if (const auto alone = checked_.alone; alone) {
-    const config::ModuleFacts& facts = checked_.check.facts[*alone];
-    others_ = other_declarations(node, uses_of(facts), facts.schema->variables);
-  }
+void ReplayedModules::compare_with_node(const std::string& node, std::size_t alone) {
+  const config::ModuleFacts& facts = checked_.check.facts[alone];
+  others_ = other_declarations(node, uses_of(facts), facts.schema->variables);
 }
 
 const schema::Variable& ReplayedModules::recorded_declaration(std::uint32_t index) const {

@@ -27,8 +27,9 @@ class ReplayedModules {
   ReplayedModules(const Options& options, const Console& console, const Checked& checked, const Prepared& prepared,
                   const Loaded& loaded);
 
-  // Finds out which variables of the only module that runs its node does not have, or has with another type.
-  void compare_with_node(const std::string& node);
+  // Finds out which variables of the only module that runs (`alone`: its index) its node does not have, or has with
+  // another type.
+  void compare_with_node(const std::string& node, std::size_t alone);
   [[nodiscard]] const OtherDeclarations& others() const noexcept { return others_; }
   // Determines which modules run, and reports why others do not.
   void choose(const RecordedRuns& recorded);
