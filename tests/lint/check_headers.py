@@ -24,9 +24,6 @@ def strict_of(name):
     return STRICT_C if name == C_ONLY else STRICT
 
 
-INCLUDE = re.compile(rb'^\s*#\s*include\s*[<"]([^>"]+)', re.MULTILINE)
-
-
 def fingerprint(root, name, compiler, flags):
     """Hash of the header, of all headers of ours it includes, directly or not, and of the command."""
     digest = hashlib.sha256(" ".join([compiler, *flags, *strict_of(name)]).encode())
@@ -38,7 +35,7 @@ def fingerprint(root, name, compiler, flags):
         seen.add(path)
         text = path.read_bytes()
         digest.update(text)
-        for target in INCLUDE.findall(text):
+        for target in common.INCLUDE.findall(text):
             ahead += [base / target.decode() for base in (root, root / "include", path.parent)]
     return digest.hexdigest()
 

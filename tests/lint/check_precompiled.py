@@ -9,7 +9,6 @@ import sys
 
 import common
 
-INCLUDE = re.compile(rb'^\s*#\s*include\s*[<"]([^>"]+)', re.MULTILINE)
 # What the build precompiles (cmake/IndurOptions.cmake), and what can be seen of its use.
 PRECOMPILED = {
     "algorithm": r"std::(ranges::)?((stable_)?sort|find(_if)?|(any|all|none)_of|clamp|transform|copy|count(_if)?|reverse|"
@@ -27,7 +26,7 @@ def includes_of(root, name, known):
     """All that a file includes, directly or by headers of ours."""
     if name not in known:
         known[name] = set()  # a circle ends here; circles are another lint's
-        for target in INCLUDE.findall((root / name).read_bytes()):
+        for target in common.INCLUDE.findall((root / name).read_bytes()):
             target = target.decode()
             known[name].add(target)
             for path in (root / target, root / "include" / target, root / "tests/support" / target, (root / name).parent / target):

@@ -2,10 +2,13 @@
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
 CXX = (".h", ".cpp")
+# The path that an #include names, in the bytes of a file.
+INCLUDE = re.compile(rb'^\s*#\s*include\s*[<"]([^>"]+)', re.MULTILINE)
 # Text that is data for tests, not ours to format: expected output, malformed input.
 DATA = ("tests/golden/", "tests/fuzz/corpus/", "tests/data/", "docs/design/generated_header_example.h")
 
