@@ -14,19 +14,8 @@ podman=${PODMAN:-podman}
 volume=indurop-proof-$$
 name=indurop-proof-$$
 rights=${PODMAN_RIGHTS:---ulimit rtprio=99 --ulimit memlock=-1}
-failures=0
+. "$here/checks.sh"
 
-check() { # TEXT COMMAND...
-  text=$1
-  shift
-  if "$@" >"$work/check.log" 2>&1; then
-    echo "ok    $text"
-  else
-    echo "WRONG $text"
-    cat "$work/check.log"
-    failures=$((failures + 1))
-  fi
-}
 tidy() {
   $podman rm --force --time 0 $name >/dev/null 2>&1 || true
   $podman volume rm $volume >/dev/null 2>&1 || true

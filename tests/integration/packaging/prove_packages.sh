@@ -9,7 +9,7 @@ debs=$(cd "$1" && pwd)
 mkdir -p "$2"
 work=$(cd "$2" && pwd)
 root=$work/root
-failures=0
+. "$(dirname "$0")/checks.sh"
 
 # The machine's own network, devices and kernel settings are out of reach; its processes are, too.
 inside() {
@@ -19,17 +19,6 @@ inside() {
     mount --bind /dev/null "$root/dev/null" 2>/dev/null || true
     ip link set lo up 2>/dev/null || true
     exec chroot "$root" "$@"' sh "$root" "$@"
-}
-check() { # TEXT COMMAND...
-  text=$1
-  shift
-  if "$@" >"$work/check.log" 2>&1; then
-    echo "ok    $text"
-  else
-    echo "WRONG $text"
-    cat "$work/check.log"
-    failures=$((failures + 1))
-  fi
 }
 files() { (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./sys -o -path ./tmp -o -path ./run -o -path ./root -o -path ./debs \) -prune -o -print | LC_ALL=C sort); }
 
