@@ -37,11 +37,11 @@ class RecordingParts : public NodeTest {
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
-  // That a reader finds in a file, closed or not; 0 if it is no recording yet.
+  // That a reader finds in a file, closed or not; 0 if it is no recording yet (then there is an error to read).
   std::uint64_t runs_in(const fs::path& file) const {
     const Outcome info = indurop({"recording", "info", file.string(), "-o", "json"});
     const auto found = nlohmann::json::parse(info.out, nullptr, false);
-    return found.is_object() && !found["modules"].empty() ? found["modules"][0]["runs"].get<std::uint64_t>() : 0;
+    return found.contains("modules") && !found["modules"].empty() ? found["modules"][0]["runs"].get<std::uint64_t>() : 0;
   }
   Outcome replay(const fs::path& file) const { return indurop({"replay", file.string(), "--node", node() + "-r"}); }
 };
