@@ -25,13 +25,14 @@ trap cleanup EXIT
 trap 'exit 130' INT TERM HUP
 
 value() { indurop get --node $node "$1" 2>/dev/null; }
+show_state() { indurop get --node $node 'CELL::*' ROBOT_JOB ROBOT_MODULE_STATE EMERGENCY_STOP 'BUS::*' I0 I1 I3 I4 I5 I6 O0 O1 O8 O9; }
 # wait_for VARIABLE VALUE SECONDS
 wait_for() {
   tries=0
   until [ "$(value "$1")" = "$2" ]; do
     tries=$((tries + 1))
     kill -0 "$runner" 2>/dev/null || { echo "the node has ended: its messages are above"; exit 1; }
-    [ $tries -lt $(($3 * 10)) ] || { echo "$1 is $(value "$1"), it did not become $2"; exit 1; }
+    [ $tries -lt $(($3 * 10)) ] || { echo "$1 is $(value "$1"), it did not become $2"; show_state; exit 1; }
     sleep 0.1
   done
 }

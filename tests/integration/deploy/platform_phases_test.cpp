@@ -72,7 +72,7 @@ TEST_F(PlatformPhases, A_board_killed_while_it_checks_and_one_that_is_prepared) 
   ASSERT_TRUE(in_phase("a", "prepared"));
   restart("a", true);
   b_check_.release();
-  // The desk learns of it before b is ready, or after it has told both to switch.
+  // The desk learns of it before b is ready, or after its command to switch.
   const Outcome said = again.finish();
   EXPECT_THAT(said.code, AnyOf(1, 5)) << said.out << said.err;
   EXPECT_EQ(common_release(), kInstalled);

@@ -41,7 +41,8 @@ class RecordingParts : public NodeTest {
   std::uint64_t runs_in(const fs::path& file) const {
     const Outcome info = indurop({"recording", "info", file.string(), "-o", "json"});
     const auto found = nlohmann::json::parse(info.out, nullptr, false);
-    return found.contains("modules") && !found["modules"].empty() ? found["modules"][0]["runs"].get<std::uint64_t>() : 0;
+    return found.contains("modules") && !found["modules"].empty() ? found["modules"][0]["runs"].get<std::uint64_t>()
+                                                                  : 0;
   }
   Outcome replay(const fs::path& file) const { return indurop({"replay", file.string(), "--node", node() + "-r"}); }
 };

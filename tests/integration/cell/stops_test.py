@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The robot cell (examples/robot_cell) in virtual time, while a visitor opens the circuit of the emergency stop or reaches into
+the light curtain at random instants, for a moment or for long, resets and starts it again: the arm stands until then, no part is
+lost, and the cell goes on with its work. INDUROP_CELL_STOPS says how many such visits, INDUROP_CELL_SEED the first one."""
+
+import argparse
+import os
+import random
+import re
+import subprocess
+import sys
+import tempfile
+
+WORK_S = 30  # after the last start; a part takes about six
+EXPECTED = 3  # parts within this time
+
+
+def visit(seed):
+    """What a visitor presses, as the module `visitor` reads it, and when the last press ends, in s."""
+    chance = random.Random(seed)
+    time, presses = chance.uniform(0.5, 2), []
+
+    def press(what, shortest, longest):
+        nonlocal time
+        begin, time = time, time + chance.uniform(shortest, longest)
+        presses.append(f"{what} {begin:.2f} {time:.2f}")
+
+    press("start", 0.1, 0.4)
+    for _ in range(chance.randint(1, 4)):
+        time += chance.uniform(0.01, 9)
+        press(chance.choice(("stop", "curtain")), 0.05, 1.5)
+        time += chance.uniform(0.05, 1)
+        press("reset", 0.05, 0.4)
+        time += chance.uniform(0.02, 1.2)
+        press("start", 0.05, 0.4)
+    return ", ".join(presses), time
+
+
+def configure(cell, io_module, visitor, folder):
+    """The cell's files without the I/O station, whose place `visitor` takes."""
+    for name in os.listdir(cell):
+        if name.endswith((".job", ".urdf")):
+            os.symlink(os.path.join(cell, name), os.path.join(folder, name))
+    with open(os.path.join(cell, "ioconfig.xml"), encoding="utf-8") as file:
+        drives = re.sub(r'<device name="station".*?</device>', "", file.read(), flags=re.DOTALL)
+    with open(os.path.join(folder, "ioconfig.xml"), "w", encoding="utf-8") as file:
+        file.write(drives)
+    with open(os.path.join(cell, "module.xml"), encoding="utf-8") as file:
+        modules = file.read()
+    modules = re.sub(r"<filename>./world.exe</filename>.*?</module>",
+                     f"<filename>{visitor}</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>"
+                     "<period>10000000</period><priority>0</priority><property><value name=\"presses\">PRESSES</value></property></module>",
+                     modules, flags=re.DOTALL)
+    return modules.replace("./libiodispat.so", io_module).replace("<filename>./", f"<filename>{cell}/")
+
+
+def wrong(output):
+    said = re.search(r"after the last start (\d+), lost (\d+), crept (\S+) mm", output)
+    if not said:
+        return "it did not run"
+    if int(said[1]) < EXPECTED:
+        return f"{said[1]} parts in {WORK_S} s after the last start"
+    if int(said[2]) > 0:
+        return f"{said[2]} parts lost"
+    return f"the tool went {said[3]} mm while it had to stand" if float(said[3]) > 0.01 else ""
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--bin", required=True)
+    parser.add_argument("--cell", required=True, help="folder with module.xml")
+    parser.add_argument("--io-module", required=True)
+    parser.add_argument("--visitor", required=True, help="the module of visitor.cpp")
+    arguments = parser.parse_args()
+    first = int(os.environ.get("INDUROP_CELL_SEED", random.randrange(1_000_000)))
+    visits = int(os.environ.get("INDUROP_CELL_STOPS", "12"))
+    failed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        modules = configure(os.path.abspath(arguments.cell), os.path.abspath(arguments.io_module), os.path.abspath(arguments.visitor),
+                            folder)
+        for seed in range(first, first + visits):
+            presses, end = visit(seed)
+            file = os.path.join(folder, "module.xml")
+            with open(file, "w", encoding="utf-8") as out:
+                out.write(modules.replace("PRESSES", presses))
+            done = subprocess.run([f"{arguments.bin}/indurop", "run", file, "--sim", "--until", f"{end + WORK_S:.2f}s", "--node",
+                                   f"stops_{os.getpid()}"], capture_output=True, text=True, timeout=120, check=False)
+            finding = wrong(done.stdout) or ("" if done.returncode == 0 else "it ended with an error")
+            if finding:
+                failed += 1
+                print(f"visit {seed} ({presses}): {finding}\n{done.stdout}{done.stderr}")
+    print(f"{visits} visits from seed {first} on, {failed} failed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
