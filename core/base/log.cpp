@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 
+#include "core/base/print.h"
 #include "core/base/printable.h"
 
 namespace indurop::base {
@@ -32,7 +33,7 @@ void Log::line(Journal::Priority priority, std::string_view text) const {
     }
   }
   std::fflush(stdout);
-  fmt::print(stderr, "{}[{}]: {}{}\n", program_, name_, kind_of(priority), safe);
+  print(stderr, "{}[{}]: {}{}\n", program_, name_, kind_of(priority), safe);
 }
 
 void Log::enter(Journal::Priority priority, std::string_view text) const {

@@ -14,6 +14,7 @@
 #include "core/base/help_text.h"
 #include "core/base/option_errors.h"
 #include "core/base/option_pages.h"
+#include "core/base/standard_files.h"
 
 namespace indurop::base {
 
@@ -132,6 +133,7 @@ Option& Option::completes(Completion what) {
 
 Options::Options(const std::string& name, std::string purpose)
     : owned_(std::make_unique<CLI::App>(purpose, name)), app_(owned_.get()) {
+  open_standard_files();  // every program begins here
   text_.name = name;
   text_.purpose = std::move(purpose);
   app_->get_formatter()->column_width(kHelpDescription);

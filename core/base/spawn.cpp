@@ -107,7 +107,15 @@ class Preparation {
 
 }  // namespace
 
+void keep_ends_of_children() noexcept {
+  struct sigaction now {};
+  if (::sigaction(SIGCHLD, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) {
+    (void)::signal(SIGCHLD, SIG_DFL);
+  }
+}
+
 Result<pid_t> spawn(const Launch& launch) {
+  keep_ends_of_children();
   const auto failed = [](int error) { return Error{Errc::System, error, "start a program"}; };
   const std::vector<char*> words = pointers(launch.words);
   const std::vector<char*> given = launch.environment ? pointers(*launch.environment) : std::vector<char*>{};

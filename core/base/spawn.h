@@ -31,6 +31,10 @@ struct Launch {
   int ends_with_us = 0;
 };
 
+// A program started by one that ignores SIGCHLD ignores it, too, and the system then drops how its children end: ends
+// this, so that waitpid() works. spawn() does it; call it before fork().
+void keep_ends_of_children() noexcept;
+
 // Starts a program; the caller waits for it. Files opened with O_CLOEXEC are passed on only as stated above. Errors:
 // System, with the errno; with ends_with_us, a program that cannot be run is reported by exit code 127. Not real-time
 // safe.

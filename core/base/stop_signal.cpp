@@ -9,10 +9,22 @@
 
 namespace indurop::base {
 
+namespace {
+
+bool is_ignored(int number) noexcept {
+  struct sigaction now {};
+  return ::sigaction(number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
+}  // namespace
+
 StopSignal::StopSignal() noexcept {
   ::sigemptyset(&set_);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) {
+  for (const int number : {SIGINT, SIGTERM, SIGCHLD}) {
     ::sigaddset(&set_, number);
+  }
+  if (!is_ignored(SIGHUP)) {  // as nohup(1) has it; a blocked signal would come although it is ignored
+    ::sigaddset(&set_, SIGHUP);
   }
   ::pthread_sigmask(SIG_BLOCK, &set_, nullptr);
   std::signal(SIGPIPE, SIG_IGN);  // a closed terminal or pipe must not end a running robot

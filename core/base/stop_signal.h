@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns SIGINT, SIGTERM and SIGHUP into a state to poll. They are blocked in every thread, so construct it before any.
+// SIGHUP stays ignored if it was before, as nohup(1) starts programs.
 
 #pragma once
 

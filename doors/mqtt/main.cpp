@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/base/exit_code.h"
+#include "core/base/print.h"
 #include "core/base/stop_signal.h"
 #include "doors/mqtt/door.h"
 #include "doors/mqtt/options.h"
@@ -21,7 +22,7 @@ constexpr const char* kDetails =
 )";
 
 int fail(const std::string& text, int code) {
-  fmt::print(stderr, "indurop-mqtt: error: {}\n", text);
+  base::print(stderr, "indurop-mqtt: error: {}\n", text);
   return code;
 }
 

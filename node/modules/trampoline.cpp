@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/base/print.h"
 #include "core/base/spawn.h"
 #include "core/rt/thread.h"
 #include "store/runtime/host.h"
@@ -80,7 +81,7 @@ int become_module(int argc, char** argv) {
   }
   offer_own_library();
   ::execv(argv[kFirstArgument], argv + kFirstArgument);
-  fmt::print(stderr, "indurop-node: error: cannot run {}: {}\n", argv[kFirstArgument], std::strerror(errno));
+  base::print(stderr, "indurop-node: error: cannot run {}: {}\n", argv[kFirstArgument], std::strerror(errno));
   return 127;
 }
 

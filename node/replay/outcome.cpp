@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/base/print.h"
+
 namespace indurop::node {
 namespace {
 
@@ -42,13 +44,13 @@ void report_differences(const ReplayedModules& modules, const vars::Store& store
   });
   for (std::size_t i = 0; i < std::min(lines.size(), kShown); ++i) {
     const auto& [known, name, module] = lines[i];
-    fmt::print("  {} of {}: {} of {} runs, first at tick {}: {}{}, now {}\n", name, module, known->differing,
-               known->compared, known->first_tick,
-               known->first_place == name ? "" : known->first_place.substr(name.size()) + " ",
-               shortened(known->first_was), shortened(known->first_is));
+    base::print(stdout, "  {} of {}: {} of {} runs, first at tick {}: {}{}, now {}\n", name, module, known->differing,
+                known->compared, known->first_tick,
+                known->first_place == name ? "" : known->first_place.substr(name.size()) + " ",
+                shortened(known->first_was), shortened(known->first_is));
   }
   if (lines.size() > kShown) {
-    fmt::print("  and {} other variables\n", lines.size() - kShown);
+    base::print(stdout, "  and {} other variables\n", lines.size() - kShown);
   }
 }
 
@@ -77,12 +79,13 @@ bool report_left_out(const ReplayedModules& modules, std::uint64_t runs_not_here
       whole = false;
     }
     if (module.too_early > 0) {
-      fmt::print("{} of {} runs of {} were not repeated: not all of their inputs were recorded before them\n",
-                 module.too_early, module.seen, name);
+      base::print(stdout, "{} of {} runs of {} were not repeated: not all of their inputs were recorded before them\n",
+                  module.too_early, module.seen, name);
     }
     if (const std::uint64_t waited = module.kept.waited(); waited > 0) {
-      fmt::print("{} of {} runs of {} were not repeated: they come before the first keyframe they could begin with\n",
-                 waited, module.seen, name);
+      base::print(stdout,
+                  "{} of {} runs of {} were not repeated: they come before the first keyframe they could begin with\n",
+                  waited, module.seen, name);
     }
   }
   if (runs_not_here > 0) {
@@ -101,11 +104,12 @@ Ending conclude(const config::Replay& replay, const ReplayedModules& modules, co
     disturbed += module->disturbed_runs;
   }
   if (disturbed > 0) {
-    fmt::print("the inputs of {} runs changed while they ran: {} of their values differ, which proves nothing\n",
-               disturbed, comparison.unclear());
+    base::print(stdout,
+                "the inputs of {} runs changed while they ran: {} of their values differ, which proves nothing\n",
+                disturbed, comparison.unclear());
   }
   for (const auto& [name, values] : comparison.forced()) {
-    fmt::print("{} values of {} were not compared: it was forced\n", values, name);
+    base::print(stdout, "{} values of {} were not compared: it was forced\n", values, name);
   }
   const bool whole =
       report_left_out(modules, repeated.runs_not_here, console) && !comparison.output_failed() && !repeated.damaged;
@@ -118,11 +122,11 @@ Ending conclude(const config::Replay& replay, const ReplayedModules& modules, co
   }
   const std::uint64_t ticks = repeated.ticks - std::min(repeated.ticks, replay.from_tick);
   if (comparison.differences() == 0) {
-    fmt::print("{} ticks, {} runs, {} values: equal\n", ticks, repeated.runs, comparison.values());
+    base::print(stdout, "{} ticks, {} runs, {} values: equal\n", ticks, repeated.runs, comparison.values());
     return whole ? Ending{kOk, "end of the recording"} : Ending{kFailed, "the recording was not replayed as a whole"};
   }
-  fmt::print("{} ticks, {} runs, {} values: {} differ\n", ticks, repeated.runs, comparison.values(),
-             comparison.differences());
+  base::print(stdout, "{} ticks, {} runs, {} values: {} differ\n", ticks, repeated.runs, comparison.values(),
+              comparison.differences());
   report_differences(modules, store);
   return {kCheckFailed, "the replay differs from the recording"};
 }

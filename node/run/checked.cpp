@@ -7,6 +7,7 @@
 
 #include "config/xml/plant_reader.h"
 #include "config/xml/reader.h"
+#include "core/base/print.h"
 
 namespace indurop::node {
 namespace {
@@ -186,7 +187,7 @@ Result<Checked, Ending> check(const Options& options, const Console& console) {
     const bool said = diagnostic.severity == base::Diagnostic::Severity::Note ||
                       (options.one_host && diagnostic.severity == base::Diagnostic::Severity::Warning);
     if (!said) {
-      fmt::print(stderr, "{}\n", base::to_string(diagnostic));
+      base::print(stderr, "{}\n", base::to_string(diagnostic));
     }
   }
   if (reading.ok && plant && !reading.checked.mirror) {

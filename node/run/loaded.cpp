@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "core/base/print.h"
 #include "node/run/setup.h"
 #include "store/runtime/host.h"
 
@@ -26,9 +27,9 @@ bool load_libraries(const Checked& checked, std::vector<ModuleLibrary>& librarie
     }
     runtime::set_current_module(i);
     if (const auto loaded = libraries[i].load(module.file, !known.insert(module.file).second); !loaded) {
-      fmt::print(stderr, "{}\n",
-                 base::to_string({base::Diagnostic::Severity::Error, config.file.string(), module.place,
-                                  fmt::format("module {}: {}", module.name, loaded.error().text)}));
+      base::print(stderr, "{}\n",
+                  base::to_string({base::Diagnostic::Severity::Error, config.file.string(), module.place,
+                                   fmt::format("module {}: {}", module.name, loaded.error().text)}));
       ok = false;
     }
     runtime::set_current_module(runtime::kNoModule);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/run/node.h"
 
+#include "core/base/print.h"
 #include "core/rt/clock.h"
 #include "core/rt/copy_text.h"
 #include "core/rt/guard.h"
@@ -61,7 +62,7 @@ bool print_statistics(const Options& options, const scheduler::RunBlock& run, co
     }
   }
   if (!options.quiet) {
-    fmt::print("{}", summary_table(run));
+    base::print(stdout, "{}", summary_table(run));
   }
   return ok;
 }

@@ -15,6 +15,7 @@
 #include "config/network_option.h"
 #include "config/xml/plant_reader.h"
 #include "core/base/duration.h"
+#include "core/base/print.h"
 #include "core/rt/clock.h"
 #include "network/mirror/simulated/network.h"
 #include "node/run/console.h"
@@ -327,7 +328,7 @@ int run_plant(const Options& options) {
   }
   for (const base::Diagnostic& diagnostic : diagnostics) {
     if (diagnostic.severity != base::Diagnostic::Severity::Note) {
-      fmt::print(stderr, "{}\n", base::to_string(diagnostic));
+      base::print(stderr, "{}\n", base::to_string(diagnostic));
     }
   }
   if (!ok) {

@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "core/base/duration.h"
+#include "core/base/print.h"
 
 namespace indurop::node {
 namespace {
@@ -54,8 +55,8 @@ std::optional<StepInput::Order> StepInput::understand(const std::string& line, s
   const base::DurationText read = base::read_duration(line, false, base::PlainNumber::Nanoseconds);
   const bool is_count = line.find_first_not_of("0123456789") == std::string::npos;
   if (!read.value || read.value->count() <= 0) {
-    fmt::print(stderr, "'{}' is not understood: Enter runs one tick, 10 runs ten, 20ms by a time, q ends the run\n",
-               line);
+    base::print(stderr, "'{}' is not understood: Enter runs one tick, 10 runs ten, 20ms by a time, q ends the run\n",
+                line);
     return std::nullopt;
   }
   return Order{is_count ? read.value->count() : (read.value->count() + basic_period_ns - 1) / basic_period_ns, false,
@@ -63,8 +64,8 @@ std::optional<StepInput::Order> StepInput::understand(const std::string& line, s
 }
 
 void print_position(std::uint64_t tick, std::int64_t basic_period_ns) {
-  fmt::print("tick {}, {}\n", tick,
-             base::format_duration(base::Nanos(static_cast<std::int64_t>(tick) * basic_period_ns)));
+  base::print(stdout, "tick {}, {}\n", tick,
+              base::format_duration(base::Nanos(static_cast<std::int64_t>(tick) * basic_period_ns)));
   std::fflush(stdout);
 }
 

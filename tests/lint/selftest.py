@@ -120,6 +120,12 @@ class Text(Sample):
         self.put("store/vars/a.h", HEAD + 'constexpr auto kWords = "flock sem_t pthread_mutex_t";\n')
         self.assertEqual(list(self.check("border")), [])
 
+    def test_print_that_throws(self):
+        self.put("core/rt/a.h", HEAD + '  fmt::print(stderr, "full");\n')
+        self.found(self.check("border"), "core/rt/a.h:4", "base::print")
+        self.put("core/rt/a.h", HEAD + '  base::print(stderr, "full");\n')
+        self.assertEqual(list(self.check("border")), [])
+
     def test_todo_without_issue(self):
         self.put("core/rt/a.cpp", HEAD + "// TODO" + ": later\n")
         self.found(self.check("todo"), "core/rt/a.cpp:4")

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "core/base/spawn.h"
 #include "core/rt/clock.h"
 #include "tools/client/process/interrupt.h"
 #include "tools/iceoryx/publisher.h"
@@ -73,6 +74,7 @@ class Supervisor {
 
   void start_worker() {
     const pid_t parent = getpid();
+    base::keep_ends_of_children();
     worker_ = fork();
     if (worker_ < 0) {
       context_.out.error(fmt::format("cannot start a process: {}; trying again", std::strerror(errno)));

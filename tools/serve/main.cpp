@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/base/exit_code.h"
+#include "core/base/print.h"
 #include "core/keys/participant_keys.h"
 #include "core/rt/clock.h"
 #include "tools/client/process/interrupt.h"
@@ -24,15 +25,15 @@ constexpr const char* kDetails = R"(What 'indurop serve' becomes. Prints its add
 int run(const tools::ServeOptions& options) {
   auto admission = admission_of(options);
   if (!admission) {
-    fmt::print(stderr, "indurop-serve: error: {}\n", admission.error().text);
+    base::print(stderr, "indurop-serve: error: {}\n", admission.error().text);
     return admission.error().code;
   }
   if (const std::string exposed = keys::exposed_key(options.key); !options.key.empty() && !exposed.empty()) {
-    fmt::print(stderr, "indurop-serve: warning: {}\n", exposed);
+    base::print(stderr, "indurop-serve: warning: {}\n", exposed);
   }
   if (!options.users.empty()) {
     if (const std::string problem = UserBook(options.users, &rt::now_ns).problem(); !problem.empty()) {
-      fmt::print(stderr, "{}", problem);
+      base::print(stderr, "{}", problem);
       return kFailed;
     }
   }

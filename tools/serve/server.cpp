@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/base/exit_code.h"
+#include "core/base/print.h"
 #include "core/rt/clock.h"
 #include "tools/client/process/gentle.h"
 #include "tools/client/process/interrupt.h"
@@ -260,20 +261,20 @@ void Server::announce() const {
   const AccessGateSettings& gate = gate_.settings();
   // A token that is in no file can be obtained from this output only.
   const bool shown = !gate.tokens.empty() && options_.token_file.empty();
-  fmt::print("{}://{}:{}/{}\n", gate.tls ? "https" : "http", options_.bind, door_->port(),
-             shown ? "#token=" + gate.tokens.front().value : "");
+  base::print(stdout, "{}://{}:{}/{}\n", gate.tls ? "https" : "http", options_.bind, door_->port(),
+              shown ? "#token=" + gate.tokens.front().value : "");
   (void)std::fflush(stdout);
 }
 
 int Server::run() {
   auto programs = tools::plc_programs(options_.plc);
   if (!programs) {
-    fmt::print(stderr, "indurop-serve: error: {}\n", programs.error().text);
+    base::print(stderr, "indurop-serve: error: {}\n", programs.error().text);
     return programs.error().code;
   }
   auto opened = Door::open(door_of(options_, gate_.settings()), *this);
   if (!opened) {
-    fmt::print(stderr, "indurop-serve: error: {}\n", opened.error().text);
+    base::print(stderr, "indurop-serve: error: {}\n", opened.error().text);
     return kFailed;
   }
   door_ = std::move(opened).value();

@@ -18,6 +18,7 @@
 #include "control/io/slaves/slave_word.h"
 #include "core/base/exit_code.h"
 #include "core/base/options.h"
+#include "core/base/print.h"
 #include "core/base/read_file.h"
 #include "core/base/stop_signal.h"
 #include "core/base/text.h"
@@ -128,7 +129,7 @@ class Simulation {
     const std::size_t end = lines_.rfind('\n') + 1;
     const Script script = read_script(lines_.substr(0, end), "-", bus_.segment().size());
     lines_.erase(0, end);
-    fmt::print(stderr, "{}", base::to_text(script.diagnostics));
+    base::print(stderr, "{}", base::to_text(script.diagnostics));
     add_faults(script.faults);
   }
 
@@ -177,7 +178,7 @@ class Simulation {
 };
 
 int fail(const std::string& text) {
-  fmt::print(stderr, "indurop-ecsim: error: {}\n", text);
+  base::print(stderr, "indurop-ecsim: error: {}\n", text);
   return kFailed;
 }
 
@@ -188,7 +189,7 @@ std::optional<std::vector<ethercat::Fault>> faults_of(const Setup& setup) {
     return std::nullopt;
   }
   Script script = read_script(*text, setup.script, setup.slaves.size());
-  fmt::print(stderr, "{}", base::to_text(script.diagnostics));
+  base::print(stderr, "{}", base::to_text(script.diagnostics));
   return base::has_error(script.diagnostics) ? std::nullopt : std::optional(std::move(script.faults));
 }
 
@@ -225,7 +226,7 @@ int run(const Setup& setup) {
     }
     simulation.add_faults(*faults);
   }
-  fmt::print("{} slaves at {}\n", setup.slaves.size(), setup.interface);
+  base::print(stdout, "{} slaves at {}\n", setup.slaves.size(), setup.interface);
   std::fflush(stdout);
   return simulation.run(stop) ? kOk : fail(fmt::format("{} cannot be written", setup.pcap.string()));
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/exit_code.h"
+#include "core/base/print.h"
 #include "core/base/stop_signal.h"
 #include "doors/ros/arm/arm_options.h"
 #include "doors/ros/ros1/door.h"
@@ -27,12 +28,12 @@ int run(const Ros1Options& options) {
   base::StopSignal stop;
   auto arm = read_arm(options.arm, "indurop-ros1");
   if (!arm) {
-    fmt::print(stderr, "{}", arm.error());
+    base::print(stderr, "{}", arm.error());
     return kUsage;
   }
   Ros1Door door(options, std::move(*arm));
   if (const auto done = door.run(stop); !done) {
-    fmt::print(stderr, "indurop-ros1: error: {}\n", done.error().text);
+    base::print(stderr, "indurop-ros1: error: {}\n", done.error().text);
     return kFailed;
   }
   constexpr int kSignalBase = 128;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/exit_code.h"
+#include "core/base/print.h"
 #include "core/base/stop_signal.h"
 #include "doors/ros/arm/arm_options.h"
 #include "doors/ros/ros2/door.h"
@@ -23,7 +24,7 @@ of the node itself, see <external ros2="on">.
 )";
 
 int fail_with(const std::string& text, int code) {
-  fmt::print(stderr, "{}", text);
+  base::print(stderr, "{}", text);
   return code;
 }
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "core/rt/clock.h"
@@ -20,7 +21,15 @@ using scheduler::NodeState;
 
 const std::vector<Module> kCounter = {{.file = "counter.so", .name = "counter"}};
 
-using Lifecycle = NodeTest;
+class Lifecycle : public NodeTest {
+ protected:
+  // `prepare` is called in the process that becomes the node.
+  Program& start_prepared(const std::vector<Module>& modules, std::function<bool()> prepare) {
+    Environment environment = this->environment();
+    environment.prepare = std::move(prepare);
+    return start_file(write("module.xml", xml(modules)), {}, environment);
+  }
+};
 
 class Signals : public NodeTest, public ::testing::WithParamInterface<std::pair<int, int>> {
  protected:
@@ -93,6 +102,31 @@ TEST_F(Lifecycle, Sighup_stops_in_good_order) {
   sut.signal(SIGHUP);
   EXPECT_EQ(sut.wait(), 0);
   EXPECT_CONTAINS(sut.out(), "counter stops after");
+}
+
+TEST_F(Lifecycle, Sighup_is_ignored_as_nohup_wants_it) {
+  Program& sut = start_prepared(kCounter, [] { return std::signal(SIGHUP, SIG_IGN) != SIG_ERR; });
+  ASSERT_TRUE(wait_until_running(sut));
+  sut.signal(SIGHUP);
+  EXPECT_TRUE(runs_reach("counter", module("counter").runs.load() + 100));
+  EXPECT_TRUE(sut.running());
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+}
+
+// Started by a program that ignores how its own children end.
+TEST_F(Lifecycle, Ends_of_processes_are_noticed_although_sigchld_was_ignored) {
+  Program& sut = start_prepared({{.file = "process.exe",
+                                  .name = "dies",
+                                  .type = "process",
+                                  .more = "<argument>die</argument><argument>100</argument>"
+                                          "<restart delay=\"50ms\" max=\"100\" window=\"1min\"/>"}},
+                                [] { return std::signal(SIGCHLD, SIG_IGN) != SIG_ERR; });
+  ASSERT_TRUE(wait_until_running(sut));
+  EXPECT_TRUE(wait_until([&] { return module("dies").restarts.load() >= 2; }));
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+  EXPECT_THAT(sut.err(), ::testing::Not(::testing::HasSubstr("was killed")));
 }
 
 TEST_F(Lifecycle, Second_node_of_one_name_is_refused) {
@@ -190,24 +224,26 @@ TEST_F(Lifecycle, What_ended_well_a_day_ago_is_removed_when_a_node_starts) {
   EXPECT_FALSE(files_left().empty()) << "what crashed keeps its values";
 }
 
-TEST_F(Lifecycle, Closed_output_does_not_end_a_running_node) {
-  Program& sut =
-      start_file(write("module.xml", xml({{.file = "flood.so", .name = "flood", .period = "10ms"}})), {}, [this] {
-        Environment environment = this->environment();
-        environment.prepare = [] {
-          int ends[2];
-          if (::pipe(ends) != 0) {
-            return false;
-          }
-          ::close(ends[0]);
-          return ::dup2(ends[1], STDOUT_FILENO) == STDOUT_FILENO;
-        };
-        return environment;
-      }());
-  ASSERT_TRUE(wait_until_running(sut));
-  EXPECT_TRUE(runs_reach("flood", 20));
-  sut.signal(SIGTERM);
-  EXPECT_EQ(sut.wait(), 0);
+// Its log lies on a full disk, or what read it has ended, or there is none.
+TEST_F(Lifecycle, Output_that_cannot_be_written_does_not_end_a_running_node) {
+  const auto full = [] {
+    const int file = ::open("/dev/full", O_WRONLY);
+    return ::dup2(file, STDOUT_FILENO) >= 0 && ::dup2(file, STDERR_FILENO) >= 0;
+  };
+  const auto not_read = [] {
+    int ends[2];
+    return ::pipe(ends) == 0 && ::close(ends[0]) == 0 && ::dup2(ends[1], STDOUT_FILENO) >= 0 &&
+           ::dup2(ends[1], STDERR_FILENO) >= 0;
+  };
+  const auto closed = [] { return ::close(STDIN_FILENO) + ::close(STDOUT_FILENO) + ::close(STDERR_FILENO) == 0; };
+  for (const std::function<bool()>& prepare : std::vector<std::function<bool()>>{full, not_read, closed}) {
+    Program& sut = start_prepared({{.file = "flood.so", .name = "flood", .period = "10ms"}}, prepare);
+    ASSERT_TRUE(wait_until_running(sut));
+    EXPECT_TRUE(runs_reach("flood", 20));
+    EXPECT_EQ(indurop({"status", "--node", node()}).code, 0);
+    sut.signal(SIGTERM);
+    EXPECT_EQ(sut.wait(), 0);
+  }
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <iostream>
 #include <optional>
 
+#include "core/base/print.h"
+
 namespace indurop::tools {
 namespace {
 
@@ -41,10 +43,10 @@ std::optional<std::string> read_line() {
 }
 
 std::optional<std::string> ask(const std::string& prompt) {
-  fmt::print(stderr, "{}: ", prompt);
+  base::print(stderr, "{}: ", prompt);
   (void)std::fflush(stderr);
   auto line = read_line();
-  fmt::print(stderr, "\n");
+  base::print(stderr, "\n");
   return line;
 }
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iostream>
 
+#include "core/base/print.h"
 #include "store/vars/node_lock.h"
 #include "store/vars/retain.h"
 #include "tools/cli/values/forcing.h"
@@ -30,7 +31,7 @@ Result<void, Failure> agreed(Context& context, const ResetOptions& options, cons
     return Failure{kUsage, "this cannot be undone, and there is no terminal to ask on; add --yes"};
   }
   context.out.flush();
-  fmt::print(stderr, "{} [y/N] ", question);
+  base::print(stderr, "{} [y/N] ", question);
   std::string answer;
   std::getline(std::cin, answer);
   if (answer == "y" || answer == "Y" || answer == "yes") {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/base/print.h"
 #include "history/alarms/alarm_list.h"
 #include "tools/client/node/node_trouble.h"
 
@@ -28,7 +29,7 @@ void AlarmDesk::check_now(const std::vector<std::string>& boards) {
     if (std::string problem = watch->evaluate(tools::modules_now(board)); problem != problem_) {
       problem_ = std::move(problem);
       if (!problem_.empty()) {
-        fmt::print(stderr, "indurop-serve: error: alarms cannot be kept: {}\n", problem_);
+        base::print(stderr, "indurop-serve: error: alarms cannot be kept: {}\n", problem_);
       }
     }
     const alarms::AlarmBook& book = watch->journal().book();

@@ -76,6 +76,15 @@ TEST_P(Spawn, Tells_the_exit_code_and_the_signal) {
   EXPECT_EQ(end_of(spawn(sut)), 128 + SIGTERM);
 }
 
+// As a program that was started by one that ignores it.
+TEST_P(Spawn, Tells_the_exit_code_although_ends_of_children_were_ignored) {
+  const auto handler = std::signal(SIGCHLD, SIG_IGN);
+  Launch sut = launch();
+  sut.words = {"sh", "-c", "exit 7"};
+  EXPECT_EQ(end_of(spawn(sut)), 7);
+  (void)std::signal(SIGCHLD, handler);
+}
+
 TEST_P(Spawn, Passes_arguments_and_both_outputs) {
   EXPECT_EQ(said(launch(), "echo a; echo 'b  c' >&2"), "a\nb  c\n");
 }
