@@ -22,8 +22,8 @@ import machine
 
 # What qemu-user does not know: robust mutexes, on their own or by our library.
 UNKNOWN = (b"pthread_mutexattr_setrobust", b"libindurop.so")
-# Rooms that need a whole kernel: how child processes end, real time.
-KERNEL = ("base_*", "rt_*", "scheduler_engine_*", "*_posix")
+# Rooms that need a whole kernel: how child processes end, network interfaces, real time.
+KERNEL = ("base_*", "dds_*", "rt_*", "scheduler_engine_*", "*_posix")
 CHAPTER_SECONDS = 5
 PATIENCE = 3600  # seconds a program may take: a limit for one that hangs, however busy this machine is
 # Nanoseconds per instruction, as powers of two. Tests that spin for a time are cheaper on a slower processor, which has to be

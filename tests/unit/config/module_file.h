@@ -6,6 +6,7 @@
 #include <elf.h>
 #include <sys/stat.h>
 
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -17,9 +18,15 @@
 
 namespace indurop::config {
 
+#if defined(__aarch64__)
+inline constexpr std::uint16_t kThisMachine = EM_AARCH64;
+#else
+inline constexpr std::uint16_t kThisMachine = EM_X86_64;
+#endif
+
 struct ModuleSpec {
   bool program = false;  // else a shared library
-  std::uint16_t machine = EM_X86_64;
+  std::uint16_t machine = kThisMachine;
   std::uint32_t abi = abi::kVersion;  // 0: none
   std::vector<std::string> exports{"indurop_module_describe"};
   std::vector<std::string> imports{};

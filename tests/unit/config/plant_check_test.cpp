@@ -321,11 +321,13 @@ TEST_F(CheckPlant, Modules_for_elsewhere_are_not_compared_with_this_machine) {
 TEST_F(CheckPlant, Files_are_those_of_the_board_s_architecture) {
   ModuleSpec arm;
   arm.machine = EM_AARCH64;
+  ModuleSpec x86;
+  x86.machine = EM_X86_64;
   for (const char* folder : {"build-arm64", "build-amd64"}) {
     std::filesystem::create_directory(folder_ / folder);
   }
   write_module(folder_ / "build-arm64/a.so", arm);
-  write_module(folder_ / "build-amd64/a.so", {});
+  write_module(folder_ / "build-amd64/a.so", x86);
   const auto on = [](const std::string& name, const std::string& arch, const std::string& file) {
     return "<board name=\"" + name + "\" arch=\"" + arch + "\">" + periodic(file, "1ms", 1) + "</board>\n";
   };
