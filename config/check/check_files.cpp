@@ -89,6 +89,7 @@ class FileCheck {
       : report_(context.report),
         texts_(context.texts),
         this_machine_(context.options.machine),
+        of_one_board_(!context.options.board.empty()),
         arch_(context.options.arch),
         module_(module),
         facts_(facts),
@@ -113,7 +114,8 @@ class FileCheck {
     auto read = schema::read_module_file(module_.file);
     if (!read) {
       report_.error(place_, unreadable_file(read.error(), {module_.file, module_.file_as_written, "<filename>"},
-                                            !report_.full()));
+                                            !report_.full()) +
+                                not_deployed(read.error()));
       return;
     }
     facts_.file = std::move(read.value());
@@ -137,6 +139,14 @@ class FileCheck {
   }
 
  private:
+  // Each board reads the modules of all boards, to know who writes which variable.
+  [[nodiscard]] std::string not_deployed(const Error& failure) const {
+    return of_one_board_ && failure.code == Errc::NotFound &&
+                   std::filesystem::path(module_.file_as_written).is_absolute()
+               ? "; a file with an absolute name is not deployed: copy it to every board, or give a name relative to "
+                 "the manifest"
+               : "";
+  }
   void error(const std::string& text) {
     report_.error(place_, base::path_in_quotes(module_.file_as_written) + " " + text);
   }
@@ -213,6 +223,7 @@ class FileCheck {
   base::Diagnostics& report_;
   SchemaTexts& texts_;
   bool this_machine_;
+  bool of_one_board_;
   const std::string& arch_;
   const Module& module_;
   ModuleFacts& facts_;

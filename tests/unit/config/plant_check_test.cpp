@@ -17,6 +17,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 struct CheckedPlant {
   Plant plant;
@@ -345,6 +346,15 @@ TEST_F(CheckPlant, Files_are_those_of_the_board_s_architecture) {
   EXPECT_THAT(checked(swapped, here).lines(),
               ElementsAre(HasSubstr("'build-arm64/a.so' is built for AArch64, this machine is x86-64")));
 #endif
+}
+
+TEST_F(CheckPlant, A_missing_file_with_an_absolute_name_was_not_deployed) {
+  const std::string boards = board("a", periodic("/nosuch/a.so", "1ms", 1)) + board("b", periodic("b.so", "1ms", 1));
+  write_module(folder_ / "b.so", {});
+  EXPECT_THAT(
+      checked(boards, {.board = "b"}).lines(),
+      ElementsAre(AllOf(HasSubstr("no such file: '/nosuch/a.so'"), HasSubstr("is not deployed: copy it to every"))));
+  EXPECT_THAT(checked(boards).lines(), ElementsAre(Not(HasSubstr("deployed"))));
 }
 
 TEST_F(CheckPlant, Type_libraries_are_checked) {
