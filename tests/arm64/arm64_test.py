@@ -45,12 +45,18 @@ def needs_machine(program):
 
 
 class Result:
-    def __init__(self, name, where, reports):
+    """What a program reported. One without GoogleTest counts as one test, which passes with exit code 0."""
+
+    def __init__(self, name, where, reports, plain_code=None):
         self.name = name
         self.where = where
         self.failed, self.count, self.skipped, self.seconds = [], 0, 0, 0.0
         log = reports / f"{name}.log"
         self.log = log.read_text(errors="replace") if log.exists() else "it was not started\n"
+        if plain_code is not None:
+            self.count = 1
+            self.failed = [f"exit code {plain_code}"] if plain_code else []
+            return
         try:
             cases = xml.parse(reports / f"{name}.xml").getroot()
         except (OSError, xml.ParseError):
@@ -72,11 +78,12 @@ class Result:
 
 def by_user(program, reports):
     """One program in qemu-user."""
+    code = -1
     with tempfile.TemporaryDirectory() as folder, open(reports / f"{program.name}.log", "w", encoding="utf-8") as log:
         with contextlib.suppress(subprocess.TimeoutExpired):
-            subprocess.run(["qemu-aarch64", program, f"--gtest_output=xml:{reports / program.name}.xml"],
-                           cwd=folder, stdout=log, stderr=log, stdin=subprocess.DEVNULL, timeout=PATIENCE, check=False)
-    return Result(program.name, "user", reports)
+            code = subprocess.run(["qemu-aarch64", program, f"--gtest_output=xml:{reports / program.name}.xml"],
+                                  cwd=folder, stdout=log, stderr=log, stdin=subprocess.DEVNULL, timeout=PATIENCE, check=False).returncode
+    return Result(program.name, "user", reports, None if b"[ RUN      ] " in program.read_bytes() else code)
 
 
 def chapter_faults(build, reports):

@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A machine with one ARM64 processor, Debian's PREEMPT_RT kernel and counted time, on x86-64. Its disk is the Debian of
+"""A machine with one ARM64 processor and Debian's PREEMPT_RT kernel, on x86-64. Its disk is the Debian of
 cmake/arm64_root.sh, in which this runs: the libraries of arm64 lie there next to those of amd64, whose programs it cannot
-run, so busybox takes their place."""
+run, so busybox takes their place.
+machine.py FOLDER FD: a machine in real time that runs FOLDER/test.sh until it is killed; the file descriptor FD is its network."""
 
 import contextlib
 import lzma
 import pathlib
 import subprocess
+import sys
 import tempfile
 
 KERNEL = pathlib.Path("/kernel")  # Debian's package, not installed
-DRIVERS = ("netfs", "9pnet", "9pnet_virtio", "9p")  # in the order in which they are loaded
+# In the order in which they are loaded.
+DRIVERS = ("netfs", "9pnet", "9pnet_virtio", "9p", "failover", "net_failover", "virtio_net")
 
 INIT = """#!/bin/busybox sh
 /bin/busybox --install -s /bin
@@ -53,14 +56,25 @@ def share(tag, path, more):
     return ["-virtfs", f"local,path={path},mount_tag={tag},security_model=none,multidevs=remap{more}"]
 
 
+def command(folder, reports, more):
+    return ["qemu-system-aarch64", "-M", "virt,accel=tcg,gic-version=3", "-cpu", "cortex-a72", "-smp", "1", "-m", "2048",
+            "-nographic", "-no-reboot", "-kernel", next((KERNEL / "boot").glob("vmlinuz-*")), "-initrd", disk(pathlib.Path(folder)),
+            "-append", "console=ttyAMA0 quiet panic=-1", *share("root", "/", ",readonly=on"), *share("out", reports, ""), *more]
+
+
 def run(script, reports, shift, seconds):
     """Runs the shell script; it writes into /mnt, which is the folder `reports` here. Each instruction takes 2^shift ns: more of
     them make waits that count the time cheaper. `seconds` of this machine's time are a hang."""
     (reports / "test.sh").write_text(script)
+    counted = ["-nic", "none", "-rtc", "clock=vm", "-icount", f"shift={shift},sleep=off"]
     with tempfile.TemporaryDirectory() as folder, open(reports / "console.log", "wb") as console:
-        command = ["qemu-system-aarch64", "-M", "virt,accel=tcg,gic-version=3", "-cpu", "cortex-a72", "-smp", "1", "-m", "2048",
-                   "-nographic", "-no-reboot", "-nic", "none", "-rtc", "clock=vm", "-icount", f"shift={shift},sleep=off",
-                   "-kernel", next((KERNEL / "boot").glob("vmlinuz-*")), "-initrd", disk(pathlib.Path(folder)),
-                   "-append", "console=ttyAMA0 quiet panic=-1", *share("root", "/", ",readonly=on"), *share("out", reports, "")]
         with contextlib.suppress(subprocess.TimeoutExpired):
-            subprocess.run(command, stdin=subprocess.DEVNULL, stdout=console, stderr=console, timeout=seconds, check=False)
+            subprocess.run(command(folder, reports, counted), stdin=subprocess.DEVNULL, stdout=console, stderr=console,
+                           timeout=seconds, check=False)
+
+
+if __name__ == "__main__":
+    wire = int(sys.argv[2])
+    with tempfile.TemporaryDirectory() as own:
+        subprocess.run(command(own, sys.argv[1], ["-netdev", f"tap,id=wire,fd={wire}", "-device", "virtio-net-pci,netdev=wire,romfile="]),
+                       stdin=subprocess.DEVNULL, pass_fds=[wire], check=False)
