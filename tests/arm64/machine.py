@@ -25,6 +25,7 @@ mount -t 9p -o ro,trans=virtio,version=9p2000.L,cache=loose,msize=512000 root /r
 mount -t 9p -o trans=virtio,version=9p2000.L,msize=512000 out /root/mnt
 for folder in proc sys dev; do mount --move /$folder /root/$folder; done
 for folder in tmp run dev/shm; do mkdir -p /root/$folder; mount -t tmpfs -o mode=1777 tmp /root/$folder; done
+ln -s /proc/self/fd/0 /root/dev/stdin; ln -s /proc/self/fd/1 /root/dev/stdout; ln -s /proc/self/fd/2 /root/dev/stderr
 mkdir /root/dev/pts && mount -t devpts pts /root/dev/pts
 mount --bind /bin/busybox /root/usr/bin/dash
 mount --bind /bin /root/srv
