@@ -262,7 +262,7 @@ def test_shows_modules_with_their_times_and_the_schedule(setting):
     ask = lambda server, path: server.get(base + path).json()
     there, here = (ask(server, "/modules")["modules"] for server in (near, remote))
     assert [[one[what] for what in STEADY] for one in here] == [[one[what] for what in STEADY] for one in there], (here, there)
-    assert remote.get(base + "/modules").json()["alive"] is True
+    wait_for(lambda: remote.get(base + "/modules").json()["alive"] is True, "the first sign of life")
     plan = ask(remote, "/schedule")
     assert plan["plan"] is None and "board's host" in plan["message"], plan
     assert {what: plan[what] for what in ("basic_period_ns", "macro_period_ns", "slots", "epoch_ns")} == {
