@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -13,6 +14,7 @@
 
 #include "core/base/exit_code.h"
 #include "core/base/program_folder.h"
+#include "core/base/standard_files.h"
 #include "node/exchange/module_trial.h"
 #include "node/modules/trampoline.h"
 #include "node/run/node.h"
@@ -34,6 +36,14 @@ int become_agent(char** argv) {
   ::execv(program.c_str(), words.data());
   std::fprintf(stderr, "indurop-node: error: cannot start %s: %s\n", program.c_str(), std::strerror(errno));
   return indurop::kFailed;
+}
+
+// Ends without the last of the output if nothing reads it: exit() would wait for ever.
+int finish(int code) {
+  if (!indurop::base::flush_standard_output(std::chrono::seconds(1))) {
+    std::_Exit(code);
+  }
+  return code;
 }
 
 }  // namespace
@@ -58,5 +68,5 @@ int main(int argc, char** argv) {
   }
   // Modules that find their node by name, through a channel for example, must find this one.
   ::setenv("INDUROP_NODE", options->node.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): before any thread
-  return indurop::node::run_node(*options);
+  return finish(indurop::node::run_node(*options));
 }

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdio>
 
-#include "core/base/print.h"
 #include "core/base/printable.h"
+#include "core/base/standard_files.h"
 
 namespace indurop::base {
 namespace {
@@ -32,8 +32,8 @@ void Log::line(Journal::Priority priority, std::string_view text) const {
       return;
     }
   }
-  std::fflush(stdout);
-  print(stderr, "{}[{}]: {}{}\n", program_, name_, kind_of(priority), safe);
+  (void)flush_standard_output(std::chrono::milliseconds(0));
+  report_line(fmt::format("{}[{}]:", program_, name_), fmt::format("{}{}", kind_of(priority), safe));
 }
 
 void Log::enter(Journal::Priority priority, std::string_view text) const {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <utility>
 
@@ -13,6 +14,8 @@
 
 namespace indurop::node {
 namespace {
+
+constexpr std::chrono::hours kReaderOfReplay{24};  // it loses nothing: no device waits for it
 
 // Returns whether it is a value from before any module was started.
 bool is_first_value(const RecordedRuns::Item& item) {
@@ -252,7 +255,7 @@ bool Replay::replay(RecordedRuns& recorded) {
     } else if (!start(&run) || !replay_run(run)) {
       return false;
     }
-    console_.print_messages(rt::MonoClock::now());
+    console_.print_messages(rt::MonoClock::now(), kReaderOfReplay);
     if (signals_.wait(std::chrono::nanoseconds{0}) != 0) {
       console_.error("interrupted");
       return false;
@@ -309,7 +312,7 @@ Ending Replay::run() {
   }
   versions_.end(modules_, repeater_);
   repeater_.stop();
-  console_.print_messages(rt::MonoClock::now());
+  console_.print_messages(rt::MonoClock::now(), kReaderOfReplay);
   console_.report_losses();
   comparison_.close_output();
   return whole ? conclude() : Ending{kFailed, "the recording was not replayed to its end"};

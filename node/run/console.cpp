@@ -2,13 +2,18 @@
 #include "node/run/console.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 
 #include "core/base/printable.h"
+#include "core/base/standard_files.h"
 
 namespace indurop::node {
 namespace {
 
+using std::chrono::milliseconds;
+
+constexpr milliseconds kReaderAtEnd{1000};  // how long a node that ends waits for the reader of its output
 constexpr std::chrono::seconds kSummary{1};
 constexpr std::size_t kMaxLines = 4;
 
@@ -60,7 +65,7 @@ void Console::report(rt::MonoTime now, bool last) {
   if (run_ == nullptr) {
     return;
   }
-  print_messages(now);
+  print_messages(now, last ? kReaderAtEnd : milliseconds(0));
   report_faults();
   if (last || now >= next_summary_) {
     report_overruns(now, last);
@@ -68,15 +73,17 @@ void Console::report(rt::MonoTime now, bool last) {
   }
 }
 
-void Console::print_messages(rt::MonoTime now) {
-  runtime::Message message;
-  bool any = false;
-  while (reader_->next(message, now)) {
-    print_message(message);
-    any = true;
-  }
-  if (any) {
-    std::fflush(stdout);
+// What standard output does not take at once stays where the modules have printed it, and is lost there if it takes
+// too long: report_losses() counts it.
+void Console::print_messages(rt::MonoTime now, milliseconds patience) {
+  constexpr std::size_t kAtOnce = 2048;  // bytes; they stay in stdio's buffer until it is flushed
+  std::size_t printed = 1;
+  while (printed > 0 && (has_journal() || base::flush_standard_output(patience))) {
+    printed = 0;
+    for (runtime::Message message; printed < kAtOnce && reader_->next(message, now);) {
+      print_message(message);
+      printed += message.text.size() + 1;
+    }
   }
 }
 

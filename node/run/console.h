@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -26,8 +27,8 @@ class Console : public base::Log {
   void watch(scheduler::RunBlock& run);
   // Prints the events since the last call. `last`: also those held back to be summarized.
   void report(rt::MonoTime now, bool last);
-  // Prints what modules printed since the last call.
-  void print_messages(rt::MonoTime now);
+  // Prints what modules printed since the last call, as far as its reader takes it within `patience`.
+  void print_messages(rt::MonoTime now, std::chrono::milliseconds patience);
   // Reports how many lines of the modules were dropped since the last call.
   void report_losses();
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/run/node.h"
 
-#include "core/base/print.h"
+#include "core/base/standard_files.h"
 #include "core/rt/clock.h"
 #include "core/rt/copy_text.h"
 #include "core/rt/guard.h"
@@ -62,7 +62,7 @@ bool print_statistics(const Options& options, const scheduler::RunBlock& run, co
     }
   }
   if (!options.quiet) {
-    base::print(stdout, "{}", summary_table(run));
+    (void)base::print_within(std::chrono::seconds(1), summary_table(run));
   }
   return ok;
 }

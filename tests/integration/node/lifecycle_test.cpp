@@ -246,5 +246,26 @@ TEST_F(Lifecycle, Output_that_cannot_be_written_does_not_end_a_running_node) {
   }
 }
 
+// As behind a terminal that was stopped with Ctrl-S: processes are started again and a stop is obeyed nevertheless.
+TEST_F(Lifecycle, Output_that_is_not_read_holds_nothing_up) {
+  Program& sut = start_prepared({{.file = "counter.so", .name = "counter"},
+                                 {.file = "process.exe",
+                                  .name = "dies",
+                                  .type = "process",
+                                  .priority = 2,
+                                  .more = "<argument>die</argument><argument>5</argument>"
+                                          "<restart delay=\"1ms\" max=\"100000\" window=\"1min\"/>"}},
+                                [] {
+                                  int ends[2];  // the reading end stays open
+                                  return ::pipe(ends) == 0 && ::fcntl(ends[1], F_SETPIPE_SZ, 4096) >= 0 &&
+                                         ::dup2(ends[1], STDOUT_FILENO) >= 0 && ::dup2(ends[1], STDERR_FILENO) >= 0;
+                                });
+  ASSERT_TRUE(wait_until_running(sut));
+  EXPECT_TRUE(wait_until([&] { return module("dies").restarts.load() >= 100; })) << module("dies").restarts.load();
+  EXPECT_TRUE(runs_reach("counter", module("counter").runs.load() + 100));
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+}
+
 }  // namespace
 }  // namespace indurop::test
