@@ -18,8 +18,8 @@ using scheduler::ModuleType;
 using scheduler::Operation;
 
 struct Machine {
-  std::uint16_t number;
-  const char* name;
+  std::uint16_t number = 0;
+  const char* name = "";
   const char* arch = "";  // as manifests name it
 };
 constexpr Machine kMachines[] = {
