@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -40,7 +39,7 @@ int become_agent(char** argv) {
 
 // Ends without the last of the output if nothing reads it: exit() would wait for ever.
 int finish(int code) {
-  if (!indurop::base::flush_standard_output(std::chrono::seconds(1))) {
+  if (!indurop::base::flush_standard_output(indurop::base::kPatienceAtEnd)) {
     std::_Exit(code);
   }
   return code;

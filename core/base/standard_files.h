@@ -15,6 +15,9 @@ void open_standard_files() noexcept;
 // For programs that must not wait for the reader of their output: a stopped terminal (Ctrl-S), a pipe that is not read.
 // They do not wait for a lock of stdio either, which a thread that prints may hold. Thread-safe, not real-time safe.
 
+// How long a program that ends waits for the reader of what it prints.
+inline constexpr std::chrono::milliseconds kPatienceAtEnd{1000};
+
 // Writes "PREFIX TEXT" as a line to standard error. If it is not taken within 100 ms, the line is dropped, and so are
 // the next ones until it is read again; a line then says how many were.
 void report_line(std::string_view prefix, std::string_view text);

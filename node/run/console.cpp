@@ -13,7 +13,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kReaderAtEnd{1000};  // how long a node that ends waits for the reader of its output
 constexpr std::chrono::seconds kSummary{1};
 constexpr std::size_t kMaxLines = 4;
 
@@ -65,7 +64,7 @@ void Console::report(rt::MonoTime now, bool last) {
   if (run_ == nullptr) {
     return;
   }
-  print_messages(now, last ? kReaderAtEnd : milliseconds(0));
+  print_messages(now, last ? base::kPatienceAtEnd : milliseconds(0));
   report_faults();
   if (last || now >= next_summary_) {
     report_overruns(now, last);
@@ -77,13 +76,16 @@ void Console::report(rt::MonoTime now, bool last) {
 // too long: report_losses() counts it.
 void Console::print_messages(rt::MonoTime now, milliseconds patience) {
   constexpr std::size_t kAtOnce = 2048;  // bytes; they stay in stdio's buffer until it is flushed
-  std::size_t printed = 1;
-  while (printed > 0 && (has_journal() || base::flush_standard_output(patience))) {
-    printed = 0;
+  while (reader_->has_any() && (has_journal() || base::flush_standard_output(patience))) {
+    std::size_t printed = 0;
     for (runtime::Message message; printed < kAtOnce && reader_->next(message, now);) {
       print_message(message);
       printed += message.text.size() + 1;
     }
+    if (printed == 0) {
+      return;  // the next one is not finished
+    }
+    (void)base::flush_standard_output(patience);
   }
 }
 

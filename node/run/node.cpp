@@ -62,7 +62,7 @@ bool print_statistics(const Options& options, const scheduler::RunBlock& run, co
     }
   }
   if (!options.quiet) {
-    (void)base::print_within(std::chrono::seconds(1), summary_table(run));
+    (void)base::print_within(base::kPatienceAtEnd, summary_table(run));
   }
   return ok;
 }

@@ -70,6 +70,16 @@ bool push_message(RunBlock& run, std::uint32_t module, std::string_view text, rt
 
 MessageReader::MessageReader(RunBlock& run) : run_(run), stuck_(std::size_t{run.module_capacity} + 1) {}
 
+bool MessageReader::has_any() const noexcept {
+  for (std::size_t i = 0; i < stuck_.size(); ++i) {
+    const MessageRing& ring = run_.rings()[i];
+    if (ring.head.load(std::memory_order_relaxed) != ring.tail.load(std::memory_order_relaxed)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 bool MessageReader::next(Message& message, rt::MonoTime now) {
   const auto rings = static_cast<std::uint32_t>(stuck_.size());
   for (std::uint32_t i = 0; i < rings; ++i) {

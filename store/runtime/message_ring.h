@@ -30,6 +30,8 @@ class MessageReader {
  public:
   explicit MessageReader(scheduler::RunBlock& run);
 
+  // Returns false if there is none. A message that its producer has not finished counts.
+  [[nodiscard]] bool has_any() const noexcept;
   // Returns the next message, ring after ring, in order within each ring. Returns false if there is none now.
   bool next(Message& message, rt::MonoTime now);
   // Number of messages that were dropped because a ring was full, or never finished by a producer that died.

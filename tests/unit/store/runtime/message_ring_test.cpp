@@ -54,8 +54,10 @@ TEST(MessageRing, Drops_and_counts_when_full) {
   EXPECT_EQ(sut.lost(), 2U);
   Message message;
   for (int i = 0; i < 8; ++i) {
+    EXPECT_TRUE(sut.has_any());
     ASSERT_TRUE(sut.next(message, kNow));
   }
+  EXPECT_FALSE(sut.has_any());
   EXPECT_FALSE(sut.next(message, kNow));
   EXPECT_TRUE(push_message(node.run(), 0, "again", kNow));
   ASSERT_TRUE(sut.next(message, kNow));
@@ -77,6 +79,7 @@ TEST(MessageRing, Goes_on_after_a_producer_that_never_finished) {
   ASSERT_TRUE(push_message(node.run(), 0, "behind it", kNow));
   MessageReader sut(node.run());
   Message message;
+  EXPECT_TRUE(sut.has_any());
   EXPECT_FALSE(sut.next(message, kNow)) << "it may still be finished";
   EXPECT_FALSE(sut.next(message, kNow + kUnfinishedMessage - 1ns));
   ASSERT_TRUE(sut.next(message, kNow + kUnfinishedMessage));
