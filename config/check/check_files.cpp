@@ -88,9 +88,7 @@ class FileCheck {
   FileCheck(CheckContext& context, const Module& module, ModuleFacts& facts)
       : report_(context.report),
         texts_(context.texts),
-        this_machine_(context.options.machine),
-        of_one_board_(!context.options.board.empty()),
-        arch_(context.options.arch),
+        options_(context.options),
         module_(module),
         facts_(facts),
         place_(module.places.file) {}
@@ -119,12 +117,12 @@ class FileCheck {
       return;
     }
     facts_.file = std::move(read.value());
-    if (!arch_.empty() && !is_for(facts_.file.machine, arch_)) {
-      error("is built for " + machine_name(facts_.file.machine) + ", the board is " + arch_ +
+    if (!options_.arch.empty() && !is_for(facts_.file.machine, options_.arch)) {
+      error("is built for " + machine_name(facts_.file.machine) + ", the board is " + options_.arch +
             "; name the file that is built for the board, or correct arch=");
       return;
     }
-    if (this_machine_ && facts_.file.machine != kThisMachine) {
+    if (options_.machine && facts_.file.machine != kThisMachine) {
       error("is built for " + machine_name(facts_.file.machine) + ", this machine is " + machine_name(kThisMachine) +
             "; build it for this one");
       return;
@@ -141,7 +139,7 @@ class FileCheck {
  private:
   // Each board reads the modules of all boards, to know who writes which variable.
   [[nodiscard]] std::string not_deployed(const Error& failure) const {
-    return of_one_board_ && failure.code == Errc::NotFound &&
+    return !options_.board.empty() && failure.code == Errc::NotFound &&
                    std::filesystem::path(module_.file_as_written).is_absolute()
                ? "; a file with an absolute name is not deployed: copy it to every board, or give a name relative to "
                  "the manifest"
@@ -222,9 +220,7 @@ class FileCheck {
 
   base::Diagnostics& report_;
   SchemaTexts& texts_;
-  bool this_machine_;
-  bool of_one_board_;
-  const std::string& arch_;
+  const CheckOptions& options_;
   const Module& module_;
   ModuleFacts& facts_;
   base::SourcePlace place_;

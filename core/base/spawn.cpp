@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <csignal>
 
+#include "core/base/stop_signal.h"
+
 namespace indurop::base {
 namespace {
 
@@ -108,8 +110,7 @@ class Preparation {
 }  // namespace
 
 void keep_ends_of_children() noexcept {
-  struct sigaction now {};
-  if (::sigaction(SIGCHLD, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) {
+  if (is_ignored(SIGCHLD)) {
     (void)::signal(SIGCHLD, SIG_DFL);
   }
 }

@@ -9,14 +9,10 @@
 
 namespace indurop::base {
 
-namespace {
-
 bool is_ignored(int number) noexcept {
   struct sigaction now {};
   return ::sigaction(number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
 }
-
-}  // namespace
 
 StopSignal::StopSignal() noexcept {
   ::sigemptyset(&set_);

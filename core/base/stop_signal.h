@@ -9,6 +9,9 @@
 
 namespace indurop::base {
 
+// Returns true if this process ignores the signal; it may have inherited that from the program that started it.
+bool is_ignored(int number) noexcept;
+
 class StopSignal {
  public:
   StopSignal() noexcept;

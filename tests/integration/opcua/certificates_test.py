@@ -4,12 +4,10 @@
 certificate of the plant's authority. In a network namespace of its own. certificates_test.py PROGRAMS FAKE_NODE [TEST...]"""
 
 import subprocess
-import time
 
-from opcua_harness import Client, enter_namespace, Failed, main, refused
+from opcua_harness import Client, enter_namespace, Failed, main, refused, wait_for
 from users_test import PASSWORD, user, Users
 
-PATIENCE_S = 60
 PLANT = '<plant name="press"><board name="here"/></plant>'
 
 
@@ -21,13 +19,13 @@ def begin(setting, *options):
 
 def connect_when_trusted(client, **words):
     """The server reads the folder of trusted certificates again some time after it has changed."""
-    end = time.monotonic() + PATIENCE_S
-    while True:
+    def connected():
         try:
-            return client.connect(**words)
+            client.connect(**words)
+            return True
         except Failed:
-            if time.monotonic() > end:
-                raise
+            return False
+    wait_for(connected, "the connection of a client that is trusted")
 
 
 def test_clients_are_trusted_one_by_one(setting):
