@@ -240,6 +240,7 @@ class Checker {
     result.range = notes.range;
     result.alarms = std::move(notes.alarms);
     result.retain = notes.retain;
+    result.view = notes.view;
     result.maxage_ns = notes.maxage_ns;
     result.source = context_.source(name);
     if (declarator.initial) {

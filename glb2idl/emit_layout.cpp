@@ -71,6 +71,9 @@ std::string properties(const schema::Variable& v) {
   if (v.retain) {
     add("retain");
   }
+  if (v.view) {
+    add("view");
+  }
   if (v.maxage_ns != 0) {
     add(fmt::format("maxage {}", duration_text(v.maxage_ns)));
   }

@@ -290,8 +290,9 @@ bool ExpressionParser::annotations(std::vector<ast::Annotation>& to) {
     result.at = in_.take().at;
     const Token& name = in_.peek();
     if (name.kind != TokenKind::Identifier) {
-      in_.error(name.at,
-                "the annotation's name is missing after '@': unit, range, retain, maxage, fallback, alarm or desc");
+      in_.error(
+          name.at,
+          "the annotation's name is missing after '@': unit, range, retain, view, maxage, fallback, alarm or desc");
       return false;
     }
     in_.take();

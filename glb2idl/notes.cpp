@@ -25,10 +25,11 @@ struct Rule {
   std::string_view usage;
 };
 constexpr std::size_t kSome = 99;  // read_alarm() checks the number itself
-constexpr std::array<Rule, 7> kRules{{{"unit", 1, true, "@unit(\"mm\")"},
+constexpr std::array<Rule, 8> kRules{{{"unit", 1, true, "@unit(\"mm\")"},
                                       {"range", 2, true, "@range(0, 180)"},
                                       {"desc", 1, true, "@desc(\"what it is\")"},
                                       {"retain", 0, false, "@retain"},
+                                      {"view", 0, false, "@view"},
                                       {"maxage", 1, false, "@maxage(10ms)"},
                                       {"fallback", 1, false, "@fallback(0)"},
                                       {"alarm", kSome, true, "@alarm(\"what is wrong\", high, 500ms)"}}};
@@ -101,6 +102,8 @@ class Reader {
       read_range(annotation);
     } else if (rule.name == "retain") {
       notes_.retain = true;
+    } else if (rule.name == "view") {
+      notes_.view = true;
     } else if (rule.name == "alarm") {
       if (std::exchange(inherited_alarms_, false)) {
         notes_.alarms.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Annotations: @unit("mm") @range(0, 180) @retain @maxage(10ms) @fallback(0) @desc("...") @alarm("...", high).
+// Annotations: @unit("mm") @range(0, 180) @retain @view @maxage(10ms) @fallback(0) @desc("...") @alarm("...", high).
 
 #pragma once
 
@@ -19,6 +19,7 @@ struct Notes {
   std::optional<schema::Range> range;
   std::vector<schema::Alarm> alarms;
   bool retain = false;
+  bool view = false;
   std::int64_t maxage_ns = 0;
   const ast::Initializer* fallback = nullptr;  // inside the given annotation
 };

@@ -89,6 +89,9 @@ ordered_json variable_json(const Variable& variable) {
   if (variable.retain) {
     out["retain"] = true;
   }
+  if (variable.view) {
+    out["view"] = true;
+  }
   if (variable.maxage_ns != 0) {
     out["maxage_ns"] = variable.maxage_ns;
   }

@@ -104,6 +104,7 @@ struct Variable {
   std::string description;
   std::optional<Range> range;
   bool retain = false;
+  bool view = false;                   // for tools only: versions of a module may write different values
   std::int64_t maxage_ns = 0;          // 0: none
   std::vector<std::uint8_t> initial;   // empty: all zero, else type.size() bytes
   bool given = false;                  // an initial value was written, even 0: without a writer it is a parameter

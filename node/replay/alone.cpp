@@ -52,7 +52,7 @@ void Alone::note(const recorder::RunWords& run) {
 Result<void, base::Problem> Alone::write(const std::filesystem::path& file, const OtherDeclarations& others) const {
   Json variables = Json::array();
   for (const KnownValue& known : module_.known) {
-    if (known.written) {
+    if (known.written && !known.only_viewed) {
       variables.push_back(variable_json(known, variable_at(store_, known.variable).name));
     }
   }

@@ -86,7 +86,7 @@ void Comparison::compare(ReplayedModule& module, const recorder::RunWords& run) 
     return;  // its outputs were those of an incomplete run, followed by its fail-safe values
   }
   for (KnownValue& known : module.known) {
-    if (known.written && known.has_value) {
+    if (known.written && known.has_value && !known.only_viewed) {
       compare(module, known, run);
     }
   }

@@ -57,7 +57,7 @@ void report_differences(const ReplayedModules& modules, const vars::Store& store
 // Returns false if something could not be compared that ran in the recording.
 bool report_left_out(const ReplayedModules& modules, std::uint64_t runs_not_here, const Console& console) {
   bool whole = true;
-  const auto written = [](const KnownValue& known) { return known.written; };
+  const auto written = [](const KnownValue& known) { return known.written && !known.only_viewed; };
   const auto compared = [](const KnownValue& known) { return known.written && known.ever_compared; };
   for (const auto& each : modules.all()) {
     const ReplayedModule& module = *each;

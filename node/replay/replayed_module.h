@@ -35,6 +35,7 @@ struct KnownValue {
   bool written = false;
   bool always_read = false;  // by the configuration, whatever the module's code does
   bool always_written = false;
+  bool only_viewed = false;  // the module has another file here, which may write other values for tools (@view)
   bool has_value = false;
   bool ever_recorded = false;  // anywhere in the recording
   bool ever_compared = false;

@@ -127,6 +127,8 @@ void ReplayedModules::find_variables() {
     const auto* entry = store_.find(abi::fnv1a64(use.name.data(), use.name.size()));
     const bool is_new = entry == nullptr || others_.appearing.contains(entry->name_hash);
     for (std::size_t i = 0; !is_new && i < modules_.size(); ++i) {
+      const auto& replaced = checked_.replaced;
+      const bool has_other_file = std::find(replaced.begin(), replaced.end(), i) != replaced.end();
       KnownValue known;
       known.former = former_of(others_.former, entry->name_hash);
       known.variable = static_cast<std::uint32_t>(entry - store_.directory().data());
@@ -136,6 +138,7 @@ void ReplayedModules::find_variables() {
         const schema::Access code = access_in(checked_.check.facts[i].file.access, entry->name_hash);
         known.always_read = known.read && !code.reads;
         known.always_written = known.written && !code.writes;
+        known.only_viewed = has_other_file && variable_at(store_, known.variable).view;
         modules_[i]->place[known.variable] = modules_[i]->known.size();
         modules_[i]->known.push_back(std::move(known));
       }
