@@ -97,7 +97,7 @@ class GlbEmitter {
       }
       for (std::size_t i = 0; watch && i < task.programs.size(); ++i) {
         const WatchLayout layout = watch_layout(task.programs[i]);
-        line(fmt::format("uint8_t {}[{}];  // of {}, for indurop plc watch", layout.variable, layout.bytes,
+        line(fmt::format("uint8_t {}[{}] @view;  // of {}, for indurop plc watch", layout.variable, layout.bytes,
                          task.programs[i].instance),
              task.programs[i].pou->tree->at);
       }

@@ -4,6 +4,7 @@
 #include <indurop/detail/abi.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "control/plc/check/shared_names.h"
 #include "control/plc/library/standard.h"
@@ -12,6 +13,7 @@ namespace indurop::plc {
 namespace {
 
 constexpr std::size_t kMarkBytes = 8;
+constexpr std::size_t kStepBytes = 256;           // at least, of the size of a program's variable
 constexpr std::size_t kMaxVariableBytes = 16384;  // of one variable: larger arrays are not reported
 
 bool is_watchable(const Type& type) {
@@ -40,6 +42,13 @@ std::uint64_t count_of(const Type& array) {
   return count;
 }
 
+// Sizes are a few, at most a quarter or 256 bytes too large: usually, a program that gets another rung can be exchanged
+// while its node runs, because the type of this variable stays.
+std::size_t rounded(std::size_t bytes) {
+  const std::size_t step = std::max(kStepBytes, std::bit_floor(bytes) / 4);
+  return (bytes + step - 1) / step * step;
+}
+
 bool holds_blocks(const Type& type) {
   return type.kind == Type::Kind::Block || (type.kind == Type::Kind::Array && holds_blocks(*type.element));
 }
@@ -50,6 +59,7 @@ class Layout {
     out_.variable = name_of_shared(program.instance + "_watch");
     out_.bytes = kMarkBytes;
     pou(*program.pou, {});
+    out_.bytes = rounded(out_.bytes);
     std::string text = std::to_string(program.text) + "\n";
     for (const WatchedVariable& one : out_.variables) {
       text += one.path + ":" + to_string(*one.type) + "\n";

@@ -7,6 +7,7 @@
 #include <indurop/plc/types.h>
 #include <indurop/var.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -46,6 +47,14 @@ class Watch {
     bytes(begin + (reinterpret_cast<const std::uint8_t*>(&first) - begin), size);
   }
 
+  // What another version of the program wrote there must not stay.
+  void clear_to(const std::uint8_t* end) noexcept {
+    static constexpr std::array<std::uint8_t, 64> kZeros{};
+    while (to_ < end) {
+      bytes(kZeros.data(), std::min<std::size_t>(kZeros.size(), static_cast<std::size_t>(end - to_)));
+    }
+  }
+
  private:
   void bytes(const void* from, std::size_t size) noexcept {
     indurop::detail::copy_to_shared(to_, from, size);
@@ -55,7 +64,7 @@ class Watch {
 };
 
 // Writes the shared variable `Tag`, bytes, directly in shared memory: a program has thousands of values, which are not
-// collected elsewhere first. `show` writes everything but the mark.
+// collected elsewhere first. `show` writes everything but the mark and the zeros behind it.
 template <class Tag, class Show>
 void tell(std::uint64_t mark, Show show) noexcept {
   static_assert(Tag::kKind == abi::Kind::Ring);
@@ -65,6 +74,7 @@ void tell(std::uint64_t mark, Show show) noexcept {
     Watch out(static_cast<std::uint8_t*>(to));
     out.put(mark);
     show(out);
+    out.clear_to(static_cast<std::uint8_t*>(to) + Tag::kSize);
     indurop_commit_write(ring);
   }
 }
