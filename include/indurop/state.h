@@ -36,6 +36,9 @@ struct StateAddress {
 // An item whose type begins with kStatePlace has no bytes of its own in a keyframe: addresses may lead to it. Its type
 // says all that decides about what lies where inside of it.
 inline constexpr std::string_view kStatePlace = "place: ";
+// An item whose type begins with kStateShown is written by the runs and read by none, for tools that show it: another
+// version of the module does not need it.
+inline constexpr std::string_view kStateShown = "shown: ";
 
 // Filled in by the module for the node. New fields go at the end only: `size` states how much of it the module knew.
 struct StateDescriptor {

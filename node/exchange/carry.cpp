@@ -23,6 +23,12 @@ void add_pair(const Item& from, const Item& to, std::vector<Exchange::Pair>& pai
   }
 }
 
+void list(const Item& item, std::vector<std::string>& names) {
+  if (item.kind != ModuleMemory::Kind::Shown) {
+    names.push_back(item.name);
+  }
+}
+
 void compare_items(const ModuleMemory& from, const ModuleMemory& to, Carry& carry) {
   std::map<std::string_view, const Item*> before;
   for (const Item& item : from.items()) {
@@ -31,23 +37,23 @@ void compare_items(const ModuleMemory& from, const ModuleMemory& to, Carry& carr
   for (const Item& item : to.items()) {
     const auto found = before.find(item.name);
     if (found == before.end()) {
-      carry.plan.added.push_back(item.name);
+      list(item, carry.plan.added);
       continue;
     }
     const Item& old = *found->second;
     before.erase(found);
     const bool same = old.type == item.type && old.size == item.size && item.size > 0;
     if (!same && !(has_grown(old.type, item.type) && old.size < item.size)) {
-      carry.plan.changed.push_back(item.name);
+      list(item, carry.plan.changed);
       continue;
     }
-    (same ? carry.plan.kept : carry.plan.grown).push_back(item.name);
+    list(item, same ? carry.plan.kept : carry.plan.grown);
     carry.plan.bytes += old.bytes();
     add_pair(old, item, carry.pairs);
   }
   for (const Item& item : from.items()) {
     if (before.contains(item.name)) {
-      carry.plan.removed.push_back(item.name);
+      list(item, carry.plan.removed);
     }
   }
 }

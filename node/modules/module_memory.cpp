@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "node/modules/grown_array.h"
 #include "store/tape/process_keyframes.h"
@@ -71,11 +73,20 @@ ModuleMemory::ModuleMemory(const StateDescriptor& declared)
   }
 }
 
+ModuleMemory::Kind ModuleMemory::kind_of(std::string_view type) noexcept {
+  constexpr std::array<std::pair<std::string_view, Kind>, 3> kBeginnings{
+      {{kStateAddress, Kind::Address}, {kStatePlace, Kind::Place}, {kStateShown, Kind::Shown}}};
+  for (const auto& [beginning, kind] : kBeginnings) {
+    if (type.starts_with(beginning)) {
+      return kind;
+    }
+  }
+  return Kind::Value;
+}
+
 void ModuleMemory::add(const StateItem& item) {
   const std::string_view type(item.type, item.type_length);
-  const Kind kind = type.starts_with(kStateAddress) ? Kind::Address
-                    : type.starts_with(kStatePlace) ? Kind::Place
-                                                    : Kind::Value;
+  const Kind kind = kind_of(type);
   items_.push_back({{item.name, item.name_length}, std::string(type), item.address, item.size, kind});
   const Item& added = items_.back();
   form_ += fmt::format("{}\t{}\t{}\n", added.name, added.type, added.bytes());
@@ -185,7 +196,9 @@ std::vector<std::string> ModuleMemory::restore(std::span<const Old> all, std::sp
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Item* const item = find(all[i]);
     if (item == nullptr) {
-      differing.emplace_back(all[i].name);
+      if (kind_of(all[i].type) != Kind::Shown) {
+        differing.emplace_back(all[i].name);
+      }
       continue;
     }
     known[static_cast<std::size_t>(item - items_.data())] = true;
@@ -200,7 +213,8 @@ std::vector<std::string> ModuleMemory::restore(std::span<const Old> all, std::sp
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const Item& item = items_[i];
     const bool named = std::find(differing.begin(), differing.end(), item.name) != differing.end();
-    if ((!known[i] && !named) || (known[i] && item.kind == Kind::Address && !lead(item, moved))) {
+    if ((!known[i] && !named && item.kind != Kind::Shown) ||
+        (known[i] && item.kind == Kind::Address && !lead(item, moved))) {
       differing.push_back(item.name);
     }
   }

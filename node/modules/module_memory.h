@@ -33,8 +33,10 @@ class ModuleMemory {
   // place of each item follows.
   [[nodiscard]] const std::string& form() const noexcept { return form_; }
 
-  // Address: points into what is kept. Place: names an item that others point into, and has no bytes of its own.
-  enum class Kind { Value, Address, Place };
+  // Address: points into what is kept. Place: names an item that others point into, and has no bytes of its own. Shown:
+  // only tools read it.
+  enum class Kind { Value, Address, Place, Shown };
+  [[nodiscard]] static Kind kind_of(std::string_view type) noexcept;
   // One variable that is kept.
   struct Item {
     std::string name;
@@ -65,8 +67,8 @@ class ModuleMemory {
   [[nodiscard]] std::string led_to(const Item& item) const;
 
   // Puts bytes of this form back. Returns the names of items that differ: kept in the bytes and unknown here, of
-  // another type, or new here. Items of the same name and type are put back whatever the others are, also those of
-  // arrays that have more elements here.
+  // another type, or new here; not of those that are only shown. Items of the same name and type are put back whatever
+  // the others are, also those of arrays that have more elements here.
   [[nodiscard]] std::vector<std::string> restore(std::string_view form, std::span<const std::uint8_t> bytes) const;
 
  private:

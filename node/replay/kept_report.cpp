@@ -51,7 +51,7 @@ bool has_functions(const ModuleMemory& memory, const std::string& form) {
 Json items_of(const ModuleMemory& memory) {
   Json items = Json::array();
   for (const ModuleMemory::Item& item : memory.items()) {
-    if (item.kind == ModuleMemory::Kind::Place) {
+    if (item.kind == ModuleMemory::Kind::Place || item.kind == ModuleMemory::Kind::Shown) {
       continue;
     }
     const std::span<const std::uint8_t> bytes(static_cast<const std::uint8_t*>(item.address), item.size);

@@ -12,6 +12,7 @@
 #include "control/plc/emit/cpp_text.h"
 #include "control/plc/emit/object_emitter.h"
 #include "control/plc/library/signature.h"
+#include "control/plc/lower/flow.h"
 
 namespace indurop::plc {
 namespace {
@@ -102,11 +103,15 @@ void describe(const Type& type, std::string& layout) {
   }
 }
 
-// Returns the name of the type, and a hash where it has several parts: what has the same text has the same bytes.
+// Returns the name of the type, and a hash where it has several parts: what has the same text has the same bytes. The
+// text of an array ends with that of an element, so that its length can be compared with another one.
 std::string type_text(const Type& type) {
+  const std::string title = to_string(type);
+  if (type.kind == Type::Kind::Array && title.ends_with(to_string(*type.element))) {
+    return title.substr(0, title.size() - to_string(*type.element).size()) + type_text(*type.element);
+  }
   std::string layout;
   describe(type, layout);
-  const std::string title = to_string(type);
   return layout == title ? title : fmt::format("{} #{:016x}", title, abi::fnv1a64(layout.data(), layout.size()));
 }
 
@@ -181,7 +186,9 @@ class KeptEmitter {
   void collect(const std::string& name, const std::string& cpp, const Pou& pou) {
     for (const Variable* one : all_variables(pou)) {
       const std::string place = cpp + "." + name_in_cpp(*one);
-      if (is_kept_in_instance(*one)) {
+      if (lower::is_flow(one->name)) {
+        add(name + "." + one->name, std::string(kStateShown) + type_text(*one->type), place);
+      } else if (is_kept_in_instance(*one)) {
         collect(name + "." + one->name, place, *one->type);
       } else if (is_kept_in_out(*one) && one->type->open) {
         miss(name + "." + one->name, "an array of any length that methods use");

@@ -108,7 +108,13 @@ TEST(CarryPlan, An_array_may_grow_and_nothing_else_may_change_its_type) {
   for (const Case& one : {Case{"int [4]", 4, "int [6]", 6, true}, Case{"int [6]", 6, "int [4]", 4, false},
                           Case{"int [4]", 4, "long [6]", 12, false}, Case{"int [2][2]", 4, "int [2][3]", 6, false},
                           Case{"int", 1, "long", 2, false}, Case{"int", 1, "unsigned int", 1, false},
-                          Case{"ARRAY [1..4] OF INT #0a", 4, "ARRAY [1..6] OF INT #0b", 6, false},
+                          Case{"ARRAY[1..4] OF INT", 4, "ARRAY[1..6] OF INT", 6, true},
+                          Case{"ARRAY[-2..1] OF P #0a", 4, "ARRAY[-2..3] OF P #0a", 6, true},
+                          Case{"ARRAY[1..4] OF P #0a", 4, "ARRAY[1..6] OF P #0b", 6, false},
+                          Case{"ARRAY[1..4] OF INT", 4, "ARRAY[0..5] OF INT", 6, false},
+                          Case{"ARRAY[1..6] OF INT", 6, "ARRAY[1..4] OF INT", 4, false},
+                          Case{"ARRAY[1..2,1..2] OF INT", 4, "ARRAY[1..2,1..3] OF INT", 6, false},
+                          Case{"ARRAY[1..4 OF INT", 4, "ARRAY[1..6 OF INT", 6, false},
                           Case{"int [4x]", 4, "int [6]", 6, false}, Case{"[4]", 4, "[6]", 4, false}}) {
     Kept before;
     int* const first = &before.add<int>("a", one.from, one.from_count);
@@ -121,6 +127,31 @@ TEST(CarryPlan, An_array_may_grow_and_nothing_else_may_change_its_type) {
     follow(sut);
     EXPECT_EQ(now[one.from_count - 1], one.grows ? 7 : 0) << one.from << " " << one.to;
   }
+}
+
+// The power flow of a ladder, which has more points when there is one more rung, or fewer.
+TEST(CarryPlan, What_is_only_shown_is_carried_where_it_can_be_and_never_lost) {
+  Kept before;
+  before.add<int>("a", "int") = 1;
+  before.add<bool>("_flow", "shown: ARRAY[0..2] OF BOOL", 3) = true;
+  Kept same;
+  same.add<int>("a", "int");
+  const bool& flow = same.add<bool>("_flow", "shown: ARRAY[0..2] OF BOOL", 3);
+  const Carry carried = plan_carry(before.memory(), same.memory());
+  follow(carried);
+  EXPECT_TRUE(flow);
+  Kept shorter;
+  const int& a = shorter.add<int>("a", "int");
+  shorter.add<bool>("_flow", "shown: ARRAY[0..1] OF BOOL", 2);
+  const Carry sut = plan_carry(before.memory(), shorter.memory());
+  follow(sut);
+  EXPECT_EQ(a, 1);
+  for (const Carry* one : {&carried, &sut}) {
+    EXPECT_THAT(one->plan.kept, ElementsAre("a"));
+    EXPECT_THAT(one->plan.changed, IsEmpty());
+    EXPECT_FALSE(one->loses);
+  }
+  EXPECT_THAT(plan_carry(Kept().memory(), shorter.memory()).plan.added, IsEmpty());
 }
 
 TEST(CarryPlan, What_cannot_be_carried_is_said) {
