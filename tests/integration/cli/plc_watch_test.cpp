@@ -106,6 +106,7 @@ TEST_F(PlcWatchText, Values_are_next_to_the_lines_and_steps_are_active) {
 }
 
 TEST_F(PlcWatchText, A_program_other_than_the_running_one_is_reported) {
+  ASSERT_TRUE(wait_for({}, "list[2] = 7")) << "its first scan";
   put(file("line.st"), "PROGRAM main VAR x : INT; END_VAR x := x + 1; END_PROGRAM\n");
   const Outcome other = watch({"--namespace", "line"});
   EXPECT_NE(other.code, 0);

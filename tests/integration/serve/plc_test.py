@@ -110,6 +110,30 @@ def test_shows_text_and_steps(setting):
     assert steps["times"][0] == "" and steps["times"][1].startswith("T#"), steps
 
 
+def test_follows_a_program_that_is_exchanged(setting):
+    file = setting.folder / "line.st"
+    build = ("plc", "build", file, "-o", setting.folder / "out", "--watch")
+    file.write_text(LINE)
+    (setting.folder / "out").mkdir()
+    (setting.folder / "out" / "module.xml").write_text(f"<root>\n{indurop(setting, *build)}</root>\n")
+    run(setting, setting.folder / "out" / "module.xml")
+    server = setting.start_server("--plc", file)
+    base = f"{API}/boards/{setting.node}/plc"
+    asked(server, base)
+    wait_for(lambda: asked(server, base + "/live")["bodies"][1]["active"] == "10", "the first scan")
+    file.write_text(LINE.replace("VAR n : INT;", "VAR n : INT; m : INT;").replace("n := 7;", "n := 8;\n    m := 9;"))
+    indurop(setting, *build)
+    indurop(setting, "reload", "line", "--node", setting.node, "--health", "0s")
+
+    def failed():
+        answer = server.get(base + "/live")
+        return answer.status != 200 and b"is not the one in these files" in answer.body
+    wait_for(failed, "the message that another program runs")
+    assert "    m := 9;" in asked(server, base)["bodies"][0]["lines"]
+    indurop(setting, "set", "--node", setting.node, "go", "true")
+    wait_for(lambda: "m = 9" in asked(server, base + "/live")["bodies"][0]["values"], "the values of the new program")
+
+
 def run_both(setting):
     """The text and the function blocks as two programs of one board."""
     parts = []

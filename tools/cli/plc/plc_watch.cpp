@@ -34,11 +34,11 @@ class PlcWatchView {
  public:
   PlcWatchView(Context& context, PlcView& view) : context_(context), view_(view), screen_(context.out) {}
 
-  void run(Rounds rounds) {
+  Result<void, Failure> run(Rounds rounds) {
     bool key = false;
     while (rounds.wait(screen_.key_file(), key)) {
       if (key && !handle_keys()) {
-        return;
+        break;
       }
       if (!rounds.due() && !key) {
         continue;
@@ -46,12 +46,15 @@ class PlcWatchView {
       if (!key) {
         rounds.done();
       }
-      view_.sample();
+      if (auto sampled = view_.sample(); !sampled) {
+        return sampled;
+      }
       screen_.paint(page());
       if (!context_.out.flush()) {
-        return;
+        break;
       }
     }
+    return {};
   }
 
  private:
@@ -116,11 +119,13 @@ int watch(Context& context, PlcWatchRequest& request) {
   const bool live = context.out.terminal() && !request.once;
   Rounds rounds(request.hz, live ? request.count : std::max<std::uint64_t>(request.count, 1), request.timeout_ns);
   if (live) {
-    PlcWatchView(context, view).run(rounds);
-    return kOk;
+    const auto done = PlcWatchView(context, view).run(rounds);
+    return done ? kOk : report(context.out, done.error());
   }
   for (bool key = false; rounds.wait(-1, key); rounds.done()) {
-    view.sample();
+    if (const auto sampled = view.sample(); !sampled) {
+      return report(context.out, sampled.error());
+    }
     context.out.line(heading_of(view, context.out));
     for (const std::string& line : lines_of(view, context.out)) {
       context.out.line(line);

@@ -83,13 +83,22 @@ struct PlcPictures::Program {
     return Failure{kCheckFailed, fmt::format("the PLC program has errors: {}{}", first, hint)};
   }
 
+  // The program of a node was exchanged: its files may be new, too, and are read again at the next request.
+  Failure forget(Failure why) {
+    nodes.clear();
+    plan.reset();
+    return why;
+  }
+
   Result<PlcView*, Failure> view_of(const std::string& node) {
     if (auto done = read(); !done) {
       return std::move(done).error();
     }
     auto& watched = nodes[node];
     if (watched != nullptr && watched->view != nullptr) {
-      watched->view->sample();
+      if (auto sampled = watched->view->sample(); !sampled) {
+        return forget(std::move(sampled).error());
+      }
       return watched->view.get();
     }
     watched = std::make_unique<Watched>();
@@ -99,9 +108,12 @@ struct PlcPictures::Program {
     auto view =
         std::make_unique<PlcView>(watched->access, *plan, plc::live_bodies(plan->document, "", quiet), ViewChoice{});
     if (auto opened = view->open(); !opened) {
-      const Failure& why = opened.error();
-      return Failure{why.code,
-                     why.text.empty() ? fmt::format("{}", fmt::join(watched->messages.texts, "; ")) : why.text};
+      Failure why = std::move(opened).error();
+      if (why.text.empty()) {
+        why.text = fmt::format("{}", fmt::join(watched->messages.texts, "; "));
+      }
+      view.reset();
+      return why.code == kSchemaMismatch ? forget(std::move(why)) : why;
     }
     watched->view = std::move(view);
     return watched->view.get();

@@ -78,7 +78,11 @@ Result<void, Failure> PlcView::open() {
     return Failure{opened.error().code, {}};
   }
   be_gentle(source_->node());
-  sample();
+  return sample();
+}
+
+Result<void, Failure> PlcView::sample() {
+  source_->sample(access_, 0, SIZE_MAX);
   return check_marks();
 }
 

@@ -40,7 +40,8 @@ class PlcView {
 
   // Finds the selected part and attaches to the node.
   Result<void, Failure> open();
-  void sample() { source_->sample(access_, 0, SIZE_MAX); }
+  // Reads the values. Fails if another program runs now, whose values would be shown at the wrong places.
+  Result<void, Failure> sample();
 
   [[nodiscard]] const WatchSource& source() const noexcept { return *source_; }
   [[nodiscard]] const std::vector<Shown>& shown() const noexcept { return shown_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The PLC program as it runs: power flow in ladders and function blocks, active steps, values next to lines of text.
 
-import { useMemo } from "preact/hooks";
+import { useEffect, useMemo } from "preact/hooks";
 import { board_path, get } from "../../api/http";
 import type { PlcBody, PlcBodyLive, PlcChart, PlcLive, PlcNetwork, PlcNetworkLive, PlcProgram, Variables } from "../../api/types";
 import { NoBoard } from "../../shell/no_board";
@@ -146,6 +146,8 @@ export function Plc() {
   const shared = useRequest(name && `${name} ${board?.layout}`, 0, () => get<Variables>(board_path(name, "/variables?values=false")));
   const now = useRequest(program.value ? `${name} ${board?.layout} ${program.value.program} live` : "", EVERY_MS,
     () => get<PlcLive>(board_path(name, `/plc/live${which(program.value!.program)}`)));
+  // Another program may run there now, of which the server reads the files again.
+  useEffect(() => { if (now.error) program.refresh(); }, [now.error]);
   const find = useMemo(() => finder(program.value?.namespace ?? "", shared.value?.variables.map((one) => one.name) ?? []), [program.value, shared.value]);
   const variables = shared.value?.variables ?? [];
   const switched = useMemo(() => [...new Set(program.value?.bodies.flatMap(({ networks }) => networks ?? []).flatMap(({ switches }) => switches)
