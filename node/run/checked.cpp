@@ -52,6 +52,7 @@ bool take_files(const std::vector<std::string>& files, Checked& checked, config:
     ok = false;
     diagnostics.push_back({base::Diagnostic::Severity::Error, file.string(), {}, std::move(text)});
   };
+  std::error_code ignored;
   for (const std::string& text : files) {
     const auto [module, file] = replacement(text, config.modules);
     if (module == config.modules.end()) {
@@ -59,8 +60,11 @@ bool take_files(const std::vector<std::string>& files, Checked& checked, config:
     } else if (const auto [first, fresh] = taken.emplace(module->name, file); !fresh) {
       wrong(file,
             fmt::format("replaces module {}, as {} does; leave one of them out", module->name, first->second.string()));
+    } else if (!std::filesystem::exists(file, ignored)) {
+      wrong(file, "no such file; build it, or correct --with");
     } else {
       module->file = std::filesystem::absolute(file);
+      module->file_as_written = file.string();
       checked.replaced.push_back(static_cast<std::uint32_t>(module - config.modules.begin()));
     }
   }

@@ -99,6 +99,9 @@ TEST_F(Recording, Tells_where_a_changed_module_goes_another_way) {
   const Outcome unknown = replay({"--with", "/nowhere/stranger.so"});
   EXPECT_EQ(unknown.code, 1);
   EXPECT_CONTAINS(unknown.err, "no module has this name or such a file");
+  const Outcome missing = replay({"--with", "/nowhere/walker.so"});
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_CONTAINS(missing.err, "/nowhere/walker.so: error: no such file");
   const std::string walker = std::string(MODULE_DIR) + "/walker.so";
   const Outcome twice = replay({"--with", std::string(MODULE_DIR) + "/new/walker.so", "--with", walker});
   EXPECT_EQ(twice.code, 1);

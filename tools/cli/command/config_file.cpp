@@ -25,4 +25,13 @@ Result<std::string, Failure> find_config(const std::string& file) {
   return Failure{kUsage, "there is no module.xml or plant.xml here; say which file to read"};
 }
 
+Result<std::string, Failure> absolute_name(const std::string& file) {
+  std::error_code failed;
+  const std::filesystem::path whole = std::filesystem::absolute(file, failed);
+  if (failed) {
+    return Failure{kFailed, fmt::format("{}: the current folder does not exist any more", file)};
+  }
+  return whole.lexically_normal().string();
+}
+
 }  // namespace indurop::tools

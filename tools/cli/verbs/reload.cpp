@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "core/rt/clock.h"
+#include "tools/cli/command/config_file.h"
 #include "tools/cli/plant/reload_remote.h"
 #include "tools/cli/plant/roll_back.h"
 #include "tools/cli/shadow/shadow_run.h"
@@ -108,6 +110,11 @@ void print_json(Context& context, const ReloadOptions& options, const operate::R
 
 // Compares the new version with the running one. Returns nothing if it may be exchanged, else the exit code.
 std::optional<int> compare_as_shadow(Context& context, ReloadOptions& options, const std::string& node) {
+  std::error_code ignored;
+  if (!options.request.file.empty() && !std::filesystem::exists(options.request.file, ignored)) {
+    context.out.error(fmt::format("{}: no such file; build it, or correct its name", options.request.file));
+    return kCheckFailed;
+  }
   auto found = run_shadow(context, {node, options.module, options.request.file, options.shadow_ns});
   if (!found) {
     return report(context.out, found.error());
@@ -176,7 +183,11 @@ int reload_here(Context& context, ReloadOptions& options) {
     return report(context.out, node.error());
   }
   if (!options.file.empty()) {
-    options.request.file = std::filesystem::absolute(options.file).lexically_normal().string();
+    auto file = absolute_name(options.file);
+    if (!file) {
+      return report(context.out, file.error());
+    }
+    options.request.file = std::move(file).value();
   }
   if (options.shadow_ns > 0) {
     if (const auto code = compare_as_shadow(context, options, *node)) {

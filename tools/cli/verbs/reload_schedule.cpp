@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <utility>
 
+#include "tools/cli/command/config_file.h"
 #include "tools/cli/values/forcing.h"
 #include "tools/client/node/node_choice.h"
 #include "tools/client/node/schedule_reload.h"
@@ -36,7 +37,11 @@ int reload_schedule(Context& context, const ScheduleOptions& options) {
   request.back = options.config.empty();
   request.dry_run = options.dry_run;
   if (!request.back) {
-    request.config = std::filesystem::absolute(options.config).lexically_normal().string();
+    auto file = absolute_name(options.config);
+    if (!file) {
+      return report(context.out, file.error());
+    }
+    request.config = std::move(file).value();
   }
   const auto done = change_schedule(*node, request, options.timeout_ns, who_orders(context));
   if (!done) {
