@@ -83,6 +83,27 @@ picture() {
     --name 'O10=O10: glue'
 }
 
+# reload EXIT_CODE WORDS: another version of the ladder program, which is exchanged or not as it should be
+reload() {
+  expected=$1
+  shift
+  code=0
+  show indurop reload main "$@" --node cell || code=$?
+  [ $code -eq "$expected" ] || { echo "the exit code is $code instead of $expected"; exit 1; }
+}
+
+exchange() {
+  say "The ladder program is exchanged while the robot works. One that would drop the parts is first compared with it: it differs"
+  reload 4 main_drops.so --shadow 8s
+  say "One with another rung is equal, and continues where the ladder was"
+  reload 0 main_remembers.so --shadow 2s --health 1s
+  say "One with a fault lights the red lamp: the previous one is back in the next period, and the operator starts the cell again"
+  reload 5 main_wrong.so --guard 'O4 < 1'
+  show indurop set --node cell CELL::panel.start true
+  wait_for cell ROBOT_MODULE_STATE.eState ROBOT_GROUP_MOVING
+  indurop set --node cell CELL::panel.start false
+}
+
 finish() {
   indurop stop --node "$1" >/dev/null
   wait $runner || true
@@ -127,6 +148,7 @@ show indurop get --node cell EMERGENCY_STOP CELL::world
 show indurop chart cell.csv
 picture cell.csv cell.svg "Robot cell: joints, states and signals of twenty seconds"
 indurop plan module.xml --svg schedule.svg -q
+exchange
 finish cell
 
 say "The same cell on two boards: the PLC program and its points on one, the robot and its drives on the other"

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The robot cell (examples/robot_cell) deployed to two boards, network namespaces with agents, from a third one: it works, stops when
-a cable is pulled, continues when it is back, and is restarted when a board's node is killed. Needs root."""
+a cable is pulled, continues when it is back, gets another ladder program while the robot moves, and is restarted when a board's node
+is killed. Needs root."""
 
 import argparse
 import json
@@ -109,15 +110,16 @@ def deploy(cell):
         assert read["valid"] and read["age_ns"] >= 0 and read["owner"] != name, read
 
 
+def wait_for_parts(cell, parts):
+    def placed():
+        cell.keep_going()
+        return (cell.get(cell.station, "CELL::world.placed") or 0) >= parts
+
+    cell.wait("parts on the pallet", placed)
+
+
 def work(cell):
-    def until_placed():
-        def placed():
-            cell.keep_going()
-            return (cell.get(cell.station, "CELL::world.placed") or 0) >= 1
-
-        cell.wait("a part is on the pallet", placed)
-
-    seen = jobs(cell.changes(until_placed))
+    seen = jobs(cell.changes(lambda: wait_for_parts(cell, 1)))
     rest = iter(seen)
     assert all(job in rest for job in ("home", "pick", "place")), seen  # in this order
 
@@ -134,10 +136,28 @@ def cable(cell):
     cell.go_on()
 
 
-def kill(cell):
+def exchange(cell):
+    """The ladder program, while the robot moves: both nodes go on, and so does the work."""
+    before = pids(cell)
+    ladder = os.path.join(cell.folder, "main.so")
+    shutil.copy(os.path.join(cell.arguments.cell, "main_remembers.so"), f"{ladder}.new")
+    os.replace(f"{ladder}.new", ladder)
+    cell.go_on()
+    done = cell.desk("deploy", "plant.xml", "--health", "1s")
+    output = done.stdout + done.stderr
+    assert done.returncode == 0 and f"{cell.station} exchanged its modules in tick" in output, output
+    assert pids(cell) == before, "a node was restarted"
+    wait_for_parts(cell, cell.get(cell.station, "CELL::world.placed") + 2)
+    assert cell.get(cell.station, "CELL::world.lost") == 0, "a part was lost"
+
+
+def pids(cell):
     listed = json.loads(cell.indurop("nodes", "-o", "json").stdout)["nodes"]
-    first = next(node["pid"] for node in listed if node["node"] == cell.station)
-    os.kill(first, signal.SIGKILL)
+    return {node["node"]: node["pid"] for node in listed if node["node"] in (cell.station, cell.robot)}
+
+
+def kill(cell):
+    os.kill(pids(cell)[cell.station], signal.SIGKILL)
     cell.wait("the robot stops without its PLC", cell.stopped)
     cell.wait("the node is back", lambda: (cell.board(cell.station) or {}).get("state") == "running")
     cell.go_on()
@@ -154,6 +174,7 @@ def main():
         deploy(cell)
         work(cell)
         cable(cell)
+        exchange(cell)
         kill(cell)
     return 0
 

@@ -37,17 +37,18 @@ def visit(seed):
     return ", ".join(presses), time
 
 
-def configure(cell, io_module, visitor, folder):
-    """The cell's files without the I/O station, whose place `visitor` takes."""
+def configure(cell, io_module, visitor, folder, configuration="module.xml"):
+    """The cell's files without the I/O station, whose place `visitor` takes; what `configuration` is then."""
     for name in os.listdir(cell):
-        if name.endswith((".job", ".urdf")):
+        if name.endswith((".job", ".urdf")) or name == "io_motion.xml":
             os.symlink(os.path.join(cell, name), os.path.join(folder, name))
     with open(os.path.join(cell, "ioconfig.xml"), encoding="utf-8") as file:
         drives = re.sub(r'<device name="station".*?</device>', "", file.read(), flags=re.DOTALL)
     with open(os.path.join(folder, "ioconfig.xml"), "w", encoding="utf-8") as file:
         file.write(drives)
-    with open(os.path.join(cell, "module.xml"), encoding="utf-8") as file:
+    with open(os.path.join(cell, configuration), encoding="utf-8") as file:
         modules = file.read()
+    modules = re.sub(r"<module>(?:(?!</module>).)*io_plc.xml.*?</module>", "", modules, flags=re.DOTALL)
     modules = re.sub(r"<filename>./world.exe</filename>.*?</module>",
                      f"<filename>{visitor}</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>"
                      "<period>10000000</period><priority>0</priority><property><value name=\"presses\">PRESSES</value></property></module>",
