@@ -160,7 +160,7 @@ TEST_F(Shadow, A_version_that_faults_crashes_or_never_returns_does_no_harm) {
   for (const Case& one :
        {Case{"reload_throws", 4, "it faults: exception: out of ink"}, Case{"reload_loops", 4, "it faults: "},
         Case{"reload_bad_start", 1, "no ink"}, Case{"reload_dies", 1, "it ended its process (Aborted)"},
-        Case{"no_run", 1, "no_run.so' has no run function"}, Case{"nowhere", 4, "reload_nowhere.so: no such file"}}) {
+        Case{"no_run", 1, "no_run.so' has no run function"}, Case{"nowhere", 4, "nowhere.so: no such file"}}) {
     const Outcome done = shadow(built(one.file));
     EXPECT_EQ(done.code, one.code) << one.file << done.out << done.err;
     EXPECT_CONTAINS(done.err, one.text);
