@@ -92,6 +92,7 @@ struct VariableFact {
   std::string owner;                 // board whose value counts; empty: this one
   std::int64_t every_ns = 0;         // minimum interval between sends
   std::int64_t forced_until_ns = 0;  // 0: not forced; INT64_MAX: until released
+  bool recorded = true;              // its changes are among the facts; they are those of one variable only
 };
 
 // A field device, or a point of one, whose quality is a variable.

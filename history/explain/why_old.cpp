@@ -201,6 +201,9 @@ class Old {
       if (newer || (wrote && change->time_ns >= ran->start_ns)) {
         return {Cause::AllIsWell, {}, fmt::format("{} changed {} in its last run", writer, variable_.name), {when}};
       }
+      if (!variable_.recorded) {
+        return not_known(fmt::format("the values of {} are not recorded; {}", variable_.name, when));
+      }
       return {Cause::Unchanged, writer, fmt::format("{} runs and leaves {} as it is", writer, variable_.name), {when}};
     }
     const std::uint64_t asked =

@@ -111,6 +111,8 @@ TEST_F(OtherTypes, Are_carried_by_name_and_back) {
     EXPECT_CONTAINS(done.out, "new       nt_layout::axis.more (shared, initial values)");
     expect_all_moved();
     EXPECT_CONTAINS(indurop({"get", "nt_layout::axis", "--node", node()}).out, "more");
+    const std::string why = indurop({"explain", "nt_layout::axis", "--node", node()}).out;
+    EXPECT_EQ(why.find("leaves nt_layout::axis as it is"), std::string::npos) << "its new values are not on the tape";
     EXPECT_EQ(indurop({"get", "nt_layout::axis_before", "--node", node()}).code, 0);
     done = reload({"layout", "--back"});
     EXPECT_EQ(done.code, 0) << done.err;

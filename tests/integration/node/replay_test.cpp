@@ -61,6 +61,20 @@ TEST_F(ReplayOfLess, Nothing_that_a_module_wrote_is_no_comparison_of_it) {
                   "runs of keeper were repeated, but not compared: the recording has no values of its outputs");
 }
 
+// walker writes both in each run; the recording cannot tell whether it wrote the one that was not chosen.
+TEST_F(ReplayOfLess, Explains_no_value_that_is_not_recorded) {
+  Program& sut = start_and_wait({kCounter, kWalker});
+  ASSERT_TRUE(runs_reach("walker", 20));
+  ASSERT_EQ(indurop({"record", "nt::pace", "-o", file(), "--duration", "200ms"}).code, 0);
+  for (const std::string name : {"nt::walked", "nt::pace"}) {
+    const Outcome why = indurop({"explain", name, "--from", file()});
+    EXPECT_EQ(why.code, 0) << why.err;
+    EXPECT_FALSE(contains(why.out, "leaves " + name + " as it is")) << why.out;
+  }
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+}
+
 // counter knows only what it reads: after a gap it has to get that again.
 TEST_F(ReplayOfLess, Runs_after_missing_ones_wait_for_what_they_read) {
   Program& sut = start_and_wait({kCounter});

@@ -49,21 +49,33 @@ std::uint32_t index_of(const vars::Store& store, const std::string& variable) {
                           : static_cast<std::uint32_t>(entry - store.directory().data());
 }
 
+// A variable that is too large for the tape, or has another type than at the start of the node, is not on the tape.
+void mark_recorded(const std::string& variable, bool recorded, Facts& facts) {
+  for (explain::VariableFact& one : facts.variables) {
+    one.recorded = one.name == variable && recorded;
+  }
+}
+
 // Adds changes of the variable and of qualities from the tape.
 void add_tape(const std::string& node, const vars::Store& store, const std::string& variable,
               const std::vector<QualityPlace>& places, Facts& facts) {
   auto follower = tape::Follower::open(node, true);
   if (!follower || follower->header().layout_hash != store.header().layout_hash) {
+    mark_recorded(variable, false, facts);
     return;
   }
+  follower->show_later_variables();
   const std::uint32_t index = index_of(store, variable);
   std::multimap<std::uint32_t, const QualityPlace*> qualities;
   for (const QualityPlace& place : places) {
     qualities.emplace(index_of(store, place.variable), &place);
   }
   tape::Run run;
+  bool seen = false;
   for (std::size_t track = 0; track < follower->tracks(); ++track) {
     while (follower->next(track, run)) {
+      seen = seen || std::any_of(run.values.begin(), run.values.end(),
+                                 [index](const tape::Value& value) { return value.variable == index; });
       const bool known = run.module < facts.modules.size();
       for (const tape::Value& value : run.values) {
         const bool again = value.kind == tape::EntryKind::Again;
@@ -82,6 +94,9 @@ void add_tape(const std::string& node, const vars::Store& store, const std::stri
       }
     }
   }
+  // Of a later one the tape does not tell whether a module has it on its track.
+  const bool from_the_start = index < follower->header().variable_count;
+  mark_recorded(variable, from_the_start ? follower->variables()[index].taped != 0 : seen, facts);
 }
 
 // A quality that the tape does not have has not changed for as long as anything is known.
@@ -96,6 +111,7 @@ void add_present_qualities(const vars::Store& store, const std::vector<QualityPl
 }
 
 Facts of_memory(const std::string& node, const RunView& run, bool with_runs, std::int64_t now_ns) {
+  const std::int64_t wall_ns = rt::wall_ns();  // at once: reading the rest takes milliseconds
   Facts facts = explain::facts_of(run.block(), run.size(), with_runs);
   if (facts.stop_reason.empty() && !run.node_alive()) {
     facts.stop_reason = "its process died in the middle of its work";
@@ -104,7 +120,7 @@ Facts of_memory(const std::string& node, const RunView& run, bool with_runs, std
   add_mirror(node, facts);
   facts.orders = operate::read_orders(node, run.block().started_wall_ns);
   facts.now_ns = now_ns;
-  facts.wall_minus_node_ns = facts.is_virtual ? 0 : rt::wall_ns() - now_ns;
+  facts.wall_minus_node_ns = facts.is_virtual ? 0 : wall_ns - now_ns;
   if (!facts.is_virtual) {
     explain::add_kernel(node, facts);
   }

@@ -40,6 +40,7 @@ class Recorded {
     about_its_end();
     name_modules();
     places_ = add_config(config_, facts_);
+    find_variable();
     find_qualities();
     (void)reader_.each([this](const recording::McapMessage& message) { take(message); });
     if (!facts_.runs.empty()) {
@@ -54,7 +55,6 @@ class Recorded {
     facts_.node = about_.text("node");
     facts_.board = about_.text("board");
     facts_.basic_period_ns = about_.number("basic_period_ns");
-    facts_.wall_minus_node_ns = about_.number("real_minus_node_ns");
     config_ = about_.text("config");
     return facts_.basic_period_ns > 0;
   }
@@ -69,6 +69,8 @@ class Recorded {
             explain::read_facts({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, facts_) || complete_;
       }
     }
+    // Times in the file were converted with this difference; the one measured at the end may differ by milliseconds.
+    facts_.wall_minus_node_ns = about_.number("real_minus_node_ns");
   }
 
   void name_modules() {
@@ -76,6 +78,17 @@ class Recorded {
     facts_.modules.resize(std::max(facts_.modules.size(), names.size()));
     for (std::size_t i = 0; i < names.size(); ++i) {
       facts_.modules[i].name = names[i];
+    }
+  }
+
+  // A recording of selected variables does not have those of the others.
+  void find_variable() {
+    const bool recorded = std::any_of(sources_.channels.begin(), sources_.channels.end(), [this](const auto& channel) {
+      const recorder::ChannelPlace& place = channel.second;
+      return place.source == own_ && place.kind == recorder::ChannelKind::Value && place.name == variable_;
+    });
+    for (explain::VariableFact& one : facts_.variables) {
+      one.recorded = one.name == variable_ && recorded;
     }
   }
 

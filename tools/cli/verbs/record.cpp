@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -87,6 +88,13 @@ bool ended(const RunView& run) {
 
 using Nodes = std::vector<std::unique_ptr<Recorded>>;
 
+std::vector<std::string> facts_of(const Nodes& nodes) {
+  std::vector<std::string> facts;
+  std::transform(nodes.begin(), nodes.end(), std::back_inserter(facts),
+                 [](const auto& node) { return facts_text_here(node->chosen.node, node->chosen.run); });
+  return facts;
+}
+
 // Records until the end is requested. Errors: those of the disk.
 Result<void, base::Problem> go_on(const RecordOptions& options, const Nodes& nodes, recorder::Parts& parts) {
   const std::int64_t begin = rt::now_ns();
@@ -96,13 +104,14 @@ Result<void, base::Problem> go_on(const RecordOptions& options, const Nodes& nod
         std::all_of(nodes.begin(), nodes.end(), [](const auto& node) { return ended(node->chosen.run); });
     const bool last =
         interrupted() || all_ended || (options.duration_ns > 0 && rt::now_ns() - begin >= options.duration_ns);
+    // Before the last runs are taken: explain would miss those of later ticks.
+    const std::vector<std::string> facts = last ? facts_of(nodes) : std::vector<std::string>();
     if (auto taken = parts.take(); !taken) {
       return taken;
     }
     if (last) {
       for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const ChosenRun& chosen = nodes[i]->chosen;
-        if (auto attached = parts.attach(i, explain::kFactsFile, facts_text_here(chosen.node, chosen.run)); !attached) {
+        if (auto attached = parts.attach(i, explain::kFactsFile, facts[i]); !attached) {
           return attached;
         }
       }
