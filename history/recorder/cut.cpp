@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -62,9 +63,12 @@ class Cutter {
     if (auto copied = copy(); !copied) {
       return std::move(copied).error();
     }
-    const recording::TextMap metadata_values{{"from", base::format_duration(std::chrono::nanoseconds(from_ns))},
-                                             {"begins_with_first_run", cut_.from_first_run ? "yes" : "no"}};
-    auto written = writer_.metadata("indurop.cut", metadata_values);
+    recording::TextMap metadata_values{{"from", base::format_duration(std::chrono::nanoseconds(from_ns))},
+                                       {"begins_with_first_run", cut_.from_first_run ? "yes" : "no"}};
+    if (more_) {
+      metadata_values[kCutEnd] = std::to_string(to_);
+    }
+    auto written = writer_.metadata(kCutMetadata, metadata_values);
     if (written) {
       written = writer_.close();
     }
@@ -78,7 +82,8 @@ class Cutter {
       if (!next) {
         return std::move(next).error();
       }
-      if (!*next || (*next)->log_time_ns > to_) {
+      more_ = *next && (*next)->log_time_ns > to_;
+      if (!*next || more_) {
         return {};
       }
       if (auto taken = take(**next); !taken) {
@@ -198,6 +203,7 @@ class Cutter {
   std::map<std::uint16_t, Kept> firsts_;                             // by channel: the latest before the cut
   std::map<std::pair<std::size_t, std::uint32_t>, Module> modules_;  // by source and number
   bool begun_ = false;
+  bool more_ = false;  // than was copied
   Cut cut_;
 };
 

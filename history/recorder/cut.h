@@ -12,6 +12,10 @@
 
 namespace indurop::recorder {
 
+// Metadata of a part. kCutEnd: up to this log time everything was copied, and later runs were left out.
+inline constexpr const char* kCutMetadata = "indurop.cut";
+inline constexpr const char* kCutEnd = "end_ns";
+
 struct Cut {
   std::uint64_t runs = 0;
   std::uint64_t messages = 0;  // without the messages with values known before

@@ -98,6 +98,19 @@ TEST_F(RecordingTools, A_part_is_replayed_as_far_as_it_can_be) {
   EXPECT_EQ(recording({"cut", file(), "-o", path("first.mcap")}).code, 1) << "it is there already";
 }
 
+// What came after the part is not known, which is not the same as that nothing ran.
+TEST_F(RecordingTools, Explains_a_part_up_to_its_end) {
+  ASSERT_EQ(recording({"cut", file(), "--to", "500ms", "-o", path("first.mcap")}).code, 0);
+  ASSERT_EQ(recording({"cut", file(), "--from", "500ms", "-o", path("last.mcap")}).code, 0);
+  ASSERT_EQ(recording({"cut", path("last.mcap"), "--to", "200ms", "-o", path("middle.mcap")}).code, 0);
+  for (const std::string part : {"first.mcap", "middle.mcap"}) {
+    const Outcome late = indurop({"explain", "counter", "--from", path(part)});
+    EXPECT_CONTAINS(late.out, "counter ran whenever it was due and was not late");
+    EXPECT_CONTAINS(indurop({"explain", "nt::counted", "--from", path(part)}).out,
+                    "counter changed nt::counted in its last run");
+  }
+}
+
 TEST_F(RecordingTools, Play_gives_a_running_node_what_no_module_writes) {
   Program& sut = start_and_wait({{.file = "walker.so", .name = "walker", .period = "2ms"}});
   const Outcome played = recording({"play", file(), "--node", node(), "--speed", "4"});

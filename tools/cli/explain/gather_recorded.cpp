@@ -9,6 +9,7 @@
 
 #include "history/explain/facts_json.h"
 #include "history/explain/run_facts.h"
+#include "history/recorder/cut.h"
 #include "history/recorder/run_words.h"
 #include "history/recorder/sources.h"
 #include "history/recording/cdr.h"
@@ -183,6 +184,31 @@ class Recorded {
     });
   }
 
+  // Returns true if the recording is a part: the facts are those at the end of the whole.
+  [[nodiscard]] bool is_cut_off() const {
+    const std::int64_t last = facts_.runs.back().end_ns + facts_.wall_minus_node_ns;
+    for (const recording::McapMetadataIndex& index : reader_.contents().metadata) {
+      const bool own = index.name == recorder::kCutMetadata || index.name == about_.prefix + recorder::kCutMetadata;
+      const auto metadata = own ? reader_.metadata(index) : Problem{};
+      // Joined parts have runs after the end of the first one.
+      if (metadata && recorder::number_in(metadata->values, recorder::kCutEnd) >= last) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void forget_later() {
+    facts_.tick = 0;
+    facts_.stop_reason.clear();
+    std::erase_if(facts_.overruns, [this](const auto& one) { return one.tick > last_tick_; });
+    for (explain::ModuleFact& module : facts_.modules) {
+      if (module.fault_tick > last_tick_) {
+        module.fault.clear();
+      }
+    }
+  }
+
   void conclude() {
     std::stable_sort(facts_.runs.begin(), facts_.runs.end(),
                      [](const auto& a, const auto& b) { return a.start_ns < b.start_ns; });
@@ -192,6 +218,9 @@ class Recorded {
     }
     facts_.first_tick = from_the_start() ? 0 : first + 1;
     facts_.closed = complete_;
+    if (is_cut_off()) {
+      forget_later();
+    }
     // Facts from the begin of a recording that was not closed are too old.
     if (facts_.tick <= last_tick_) {
       facts_.tick = last_tick_ + 1;
