@@ -5,6 +5,7 @@
 #include <charconv>
 #include <filesystem>
 #include <system_error>
+#include <thread>
 
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
@@ -56,6 +57,19 @@ Status request_box(const std::string& node, const std::string& why) {
   std::filesystem::create_directories(file.parent_path(), error);
   const auto written = base::replace_file(file, why.substr(0, kLongest), base::Durable::No);
   return written ? Status() : Status(Error{Errc::System, written.error().sys_errno, "folder of the node"});
+}
+
+bool box_request_is_read(const std::string& node, std::chrono::nanoseconds patience) {
+  constexpr std::chrono::milliseconds kPause{10};
+  const rt::MonoTime end = rt::MonoClock::now() + patience;
+  std::error_code error;
+  while (std::filesystem::exists(file_of(node), error)) {
+    if (rt::MonoClock::now() >= end) {
+      return !take_box_request(node);
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+  return true;
 }
 
 std::optional<std::string> take_box_request(const std::string& node) {

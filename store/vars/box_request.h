@@ -22,6 +22,9 @@ Status request_box(const std::string& node, const std::string& why);
 // The message for Busy.
 inline constexpr const char* kBoxesTooClose =
     "it has just written a black box; the next one is possible ten seconds after that";
+// Waits until the node has read the request. Returns false, and withdraws the request, if it has not read it in this
+// time: it keeps no boxes, or uses another state folder.
+bool box_request_is_read(const std::string& node, std::chrono::nanoseconds patience);
 // Called by the node: returns the request and removes it.
 std::optional<std::string> take_box_request(const std::string& node);
 // Called by the node: no request is accepted until this time of CLOCK_MONOTONIC; 0: requests are accepted.

@@ -281,6 +281,18 @@ TEST_F(Recording, Is_not_said_to_be_kept_when_it_is_not) {
   EXPECT_EQ(next.wait(), 0);
 }
 
+// A command of another user, who has another state folder, reaches the node as little as one to a node without a tape.
+TEST_F(Recording, Is_not_said_to_be_kept_if_the_node_reads_no_request) {
+  Program& sut = start_and_wait(threads());
+  Environment elsewhere = environment();
+  elsewhere.variables.push_back("INDUROP_STATE_DIR=" + (folder() / "elsewhere").string());
+  const Outcome kept = Program({INDUROP_PROGRAM, "blackbox", "keep", "mine", "--node", node()}, elsewhere).finish();
+  EXPECT_EQ(kept.code, 1) << kept.err;
+  EXPECT_CONTAINS(kept.err, "keeps no black box: it is a simulation, has no tape (--tape 0), or does not read");
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+}
+
 TEST_F(Recording, Of_a_node_that_is_killed_says_so) {
   Program& sut = start_and_wait(threads());
   Program recorder({INDUROP_PROGRAM, "record", "-o", file(), "--node", node()}, environment());

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -260,6 +261,7 @@ int await(Context& context, const std::string& name) {
 
 // The node writes the box: only it has all data of its runs.
 int keep(Context& context, const std::string& why) {
+  constexpr std::chrono::seconds kPatience{5};
   const auto node = choose_node(context.node);
   if (!node) {
     return report(context.out, node.error());
@@ -273,6 +275,13 @@ int keep(Context& context, const std::string& why) {
     context.out.error(requested.error().code == Errc::Busy
                           ? fmt::format("node '{}': {}", *node, vars::kBoxesTooClose)
                           : fmt::format("{} cannot be written", vars::state_directory(*node).string()));
+    return kFailed;
+  }
+  if (!vars::box_request_is_read(*node, kPatience)) {
+    context.out.error(
+        fmt::format("node '{}' keeps no black box: it is a simulation, has no tape (--tape 0), or does "
+                    "not read requests in {}, because its user or its INDUROP_STATE_DIR is another one",
+                    *node, vars::state_directory(*node).string()));
     return kFailed;
   }
   context.out.note(fmt::format("node '{}' keeps its black box; indurop blackbox lists it in a moment", *node));
