@@ -103,6 +103,18 @@ def test_steps_from_tick_to_tick(setting):
     assert server.get(path + "?tick=1&number=missing").status == 422
 
 
+def test_shows_what_runs_wrote(setting):
+    """A run has the values that were new to it and those that it wrote; not what the tape repeats for late readers."""
+    folder = record_rambler(setting)
+    server = setting.start_server("--recordings", folder)
+    for tick in [2, 2998, *random.sample(range(1, 2999), 20)]:
+        for run in server.get(f"{API}/recordings/run.mcap/tick?tick={tick}").json()["runs"]:
+            found = sorted((one["name"], one["written"]) for one in run["values"])
+            wanted = {"counter": [("nt::counted", True), ("nt::kept", True)],
+                      "rambler": [("nt::counted", False), ("nt::pace", True), ("nt::walked", True)]}[run["module"]]
+            assert found == wanted, (tick, run)
+
+
 def test_shows_what_modules_kept(setting):
     """At random ticks, what the module keeps is what its source says, and what a replay from the first run on leads to."""
     folder = record_rambler(setting)

@@ -74,6 +74,11 @@ class TickReader {
   };
   using Runs = std::map<std::uint64_t, std::vector<Run>>;  // by tick
 
+  // Each run repeats an unchanged value in turn, which it may not even have read.
+  static bool is_new(tape::EntryKind kind) noexcept {
+    return kind == tape::EntryKind::Before || kind == tape::EntryKind::During || kind == tape::EntryKind::After;
+  }
+
   // Reads the runs from `begin` on, until those of the ticks at `at` have had their time and a later one was found.
   // Returns the newest tick at `at`.
   std::uint64_t read_part(std::int64_t begin, std::int64_t at) {
@@ -92,9 +97,9 @@ class TickReader {
       const recording::McapMessage& one = **message;
       if (variables_.contains(one.channel)) {
         const recorder::ValueWords words = recorder::from_sequence(one.sequence);
-        if (words.kind != tape::EntryKind::Run && words.module != recorder::kOthers) {
+        if (is_new(words.kind) && words.module != recorder::kOthers) {
           next[words.module].push_back(
-              {one.channel, words.kind != tape::EntryKind::Before, {one.data.view.begin(), one.data.view.end()}});
+              {one.channel, words.kind == tape::EntryKind::After, {one.data.view.begin(), one.data.view.end()}});
         }
       } else if (const auto run = one.channel == runs_ ? recorder::run_from_cdr(one.data.view) : Error{};
                  run && run->module != recorder::kOthers) {
