@@ -48,6 +48,7 @@ TEST_F(Reload, New_variables_appear_and_all_tools_see_them) {
   EXPECT_CONTAINS(indurop({"status", "--node", node()}).out, "nt::gained");
   EXPECT_EQ(indurop({"unforce", "nt::gained", "--node", node()}).code, 0);
   EXPECT_CONTAINS(indurop({"vars", "--node", node()}).out, "nt::pair");
+  EXPECT_CONTAINS(indurop({"scope", "nt::gained", "--node", node()}).err, "nt::gained appeared while the node runs");
   EXPECT_EQ(module("counter").faults.load(), 0U);
 }
 

@@ -35,10 +35,13 @@ Result<void, Problem> TickSampler::choose_tracks(const RunView& run, const vars:
       return one.schema_index == inputs_[input].variable;
     });
     const auto variable = static_cast<std::uint32_t>(entry - directory.begin());
-    const auto tracks = entry == directory.end() ? std::vector<std::size_t>() : known_tracks(follower_, run, variable);
+    const std::string& name = store.schema().variables[inputs_[input].variable].name;
+    if (variable >= follower_.variables().size()) {
+      return Problem{fmt::format("{} appeared while the node runs; its tape has it after a restart", name)};
+    }
+    const auto tracks = known_tracks(follower_, run, variable);
     if (tracks.empty()) {
-      return Problem{fmt::format("{} is too large for the tape; start the node with a larger --tape",
-                                 store.schema().variables[inputs_[input].variable].name)};
+      return Problem{fmt::format("{} is too large for the tape; start the node with a larger --tape", name)};
     }
     for (const std::size_t track : tracks) {
       wanted[track].resize(directory.size());
