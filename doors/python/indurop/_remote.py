@@ -38,16 +38,20 @@ class RemoteVariable(Described):
         self.layout = layout_of(self._form)
         self.size = self.layout.size
 
-    def _ask(self) -> Any:
-        found = self._node._server.get("boards", self._node.name, "variables", self.name)
+    def _ask(self, **query: str) -> Any:
+        found = self._node._server.get("boards", self._node.name, "variables", self.name, **query)
         if found["form"] != self._form:
+            self._node.refresh()  # so that the node takes it again
             raise NotFound(f"{self.name} has another type now, {found['type']}; take it from the node again")
         return found
 
     @property
     def value(self) -> Any:
-        """The value as Python sees it. JSON has neither NaN nor infinities: they are NaN, except in single numbers."""
-        found = self._ask()
+        """The value as Python sees it. A server of an earlier release sends no bytes, only JSON: it has neither NaN nor
+        infinities, which then are NaN, except in single numbers."""
+        found = self._ask(values="bytes")
+        if "bytes" in found:
+            return self.value_of(bytes.fromhex(found["bytes"]))
         if found["value"] is None and self.layout.base in ("f32", "f64") and not self.layout.dims:
             return float(found["text"])
         return value_of(self.layout, found["value"])

@@ -82,6 +82,13 @@ class Remote(NodeTest):
             self.assertEqual(self.node["places[1]"].name, 'a "b", ü')
             remote["places[0].y"] = math.nan
             self.assertTrue(math.isnan(remote["places[0].y"]))
+            # JSON has neither infinities nor the sign of zero, and a float has fewer digits there.
+            for number in (math.inf, -math.inf, -0.0):
+                remote["places[0].y"] = number
+                self.assertEqual(repr(remote["places"]), repr(self.node["places"]))
+                self.assertEqual(repr(remote["places[0].y"]), repr(number))
+            remote["gain"] = 0.1
+            self.assertEqual(remote["gain"], self.node["gain"])
             remote.variable("gain").write(3, reason="a trial of the bench")
         audit = (self.work / "audit.jsonl").read_text()
         self.assertIn("a trial of the bench", audit)

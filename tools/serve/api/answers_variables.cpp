@@ -2,6 +2,7 @@
 // Answers about variables and their values.
 #include <fmt/format.h>
 
+#include "core/base/hexadecimal.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/boards/board.h"
 #include "tools/serve/boards/variable.h"
@@ -19,7 +20,7 @@ base::Json modules_of(const tools::KnownUses& uses, const std::string& variable,
 }
 
 base::Json variable_json(const vars::Store& store, const tools::Item& item, const tools::KnownUses& uses,
-                         const std::vector<vars::Force>& forces, bool values) {
+                         const std::vector<vars::Force>& forces, bool values, bool as_bytes = false) {
   const schema::Variable& variable = *item.place.variable;
   base::Json out = base::Json::object();
   out["name"] = item.name;
@@ -34,6 +35,9 @@ base::Json variable_json(const vars::Store& store, const tools::Item& item, cons
     quality = bytes ? quality : Quality::Unread;
     out["value"] = bytes ? tools::raw_value(item.place.type, *bytes) : base::Json();
     out["text"] = bytes ? schema::format_value(item.place.type, *bytes) : std::string();
+    if (bytes && as_bytes) {
+      out["bytes"] = base::in_hexadecimal(*bytes);
+    }
   }
   out["unit"] = item.place.unit;
   out["range"] = range_of(item.place.range);
@@ -100,6 +104,10 @@ Reply variable(Api& api, const Call& call) {
   if (board.store() == nullptr) {
     return no_store(board);
   }
+  const std::string form = query_value(*call.request, "values").value_or("json");
+  if (form != "json" && form != "bytes") {
+    return refusal(status::kBadRequest, "values is json or bytes");
+  }
   const std::string& name = call.part.find("name")->second;
   std::vector<std::string> problems;
   const auto items =
@@ -108,7 +116,8 @@ Reply variable(Api& api, const Call& call) {
     return refusal(status::kNotFound,
                    problems.empty() ? fmt::format("'{}' is no name of a variable", name) : problems.front());
   }
-  return json_reply(variable_json(*board.store(), items.front(), api.uses_of(board), board.store()->forces(), true));
+  return json_reply(
+      variable_json(*board.store(), items.front(), api.uses_of(board), board.store()->forces(), true, form == "bytes"));
 }
 
 }  // namespace indurop::serve::answers
