@@ -96,6 +96,7 @@ def exchange_modules(options, folder):
             time.sleep(0.1)
         time.sleep(1)  # its caches are warm
         lost, took, longer, left_out = bench.status()["lost_ticks"], [], [], 0
+        all_began = time.monotonic()
         for i in range(options.exchanges):
             if i == options.exchanges // 10:
                 memory = bench.resident_kb(node.pid)
@@ -107,7 +108,10 @@ def exchange_modules(options, folder):
             longer.append(report["response_ns"] - bench.response_before(exchanged, report["tick"]))
         print(f"{options.exchanges} exchanges of one of {options.modules} modules at {options.period}: command to end median "
               f"{statistics.median(took) * 1e3:.0f} ms, p99 {quantile(took, 0.99) * 1e3:.0f} ms (goal: 300)")
-        print(f"  runs left out {left_out}, ticks lost by the node meanwhile {bench.status()['lost_ticks'] - lost}")
+        between = bench.status()["lost_ticks"]
+        time.sleep(time.monotonic() - all_began)
+        print(f"  runs of it left out by the exchanges and the machine {left_out}; ticks lost by the node meanwhile {between - lost}, in the "
+              f"same time without exchanges {bench.status()['lost_ticks'] - between}")
         print(f"  the tick of the exchange is longer by: median {statistics.median(longer) / 1e3:.1f} us, p99 "
               f"{quantile(longer, 0.99) / 1e3:.1f} us (goal: 5)")
         print(f"  resident memory after a tenth of them {memory} kB, at the end {bench.resident_kb(node.pid)} kB")
