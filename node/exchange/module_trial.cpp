@@ -46,7 +46,7 @@ std::string trial_failure(int status) {
     const int number = WTERMSIG(status);
     return fmt::format(
         "a process that loaded it ended by signal {} ({}): the file is damaged, or one of its static "
-        "constructors crashes or throws",
+        "constructors or destructors crashes or throws",
         number, ::strsignal(number));  // NOLINT(concurrency-mt-unsafe): glibc's is safe
   }
   switch (WEXITSTATUS(status)) {
@@ -90,6 +90,7 @@ void load_on_trial(int argc, char** argv) {
   if (argc > kFile) {
     ModuleLibrary library;
     (void)library.load(argv[kFile], true);
+    (void)library.unload();  // a node does, too: when it rejects the version, and in the end
     std::_Exit(kWasLoaded);
   }
   std::_Exit(2);
