@@ -21,6 +21,7 @@ from stops_test import configure
 SIMULATED_S = 90
 VALUES = ("PLC_ROBOT::AXIS?_IN", "PLC_ROBOT::AXIS?_OUT", "PLC_ROBOT::ROBOT_*", "PLC_ROBOT::O*")
 DIFFERS, WENT_BACK = 4, 5  # exit codes of reload
+NOT_RUNNING = ("does not run", "there is no node", "the node itself ends", "has ended")  # not yet, or no more
 PRESSES = "start 1.00 1.30, curtain 21.00 21.80, reset 22.30 22.50, start 22.80 23.00"
 
 
@@ -46,7 +47,7 @@ class Simulation:
             if began:
                 assert began[2] == "0", done.stdout
                 return int(began[1])
-            if self.process.poll() is None and "does not run" not in done.stderr and "there is no node" not in done.stderr:
+            if self.process.poll() is None and not any(text in done.stderr for text in NOT_RUNNING):
                 raise AssertionError(done.stdout + done.stderr)
         return None
 
