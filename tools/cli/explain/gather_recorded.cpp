@@ -187,15 +187,13 @@ class Recorded {
   // Returns true if the recording is a part: the facts are those at the end of the whole.
   [[nodiscard]] bool is_cut_off() const {
     const std::int64_t last = facts_.runs.back().end_ns + facts_.wall_minus_node_ns;
-    for (const recording::McapMetadataIndex& index : reader_.contents().metadata) {
+    const auto& all = reader_.contents().metadata;
+    return std::any_of(all.begin(), all.end(), [&](const recording::McapMetadataIndex& index) {
       const bool own = index.name == recorder::kCutMetadata || index.name == about_.prefix + recorder::kCutMetadata;
       const auto metadata = own ? reader_.metadata(index) : Problem{};
       // Joined parts have runs after the end of the first one.
-      if (metadata && recorder::number_in(metadata->values, recorder::kCutEnd) >= last) {
-        return true;
-      }
-    }
-    return false;
+      return metadata && recorder::number_in(metadata->values, recorder::kCutEnd) >= last;
+    });
   }
 
   void forget_later() {
