@@ -14,6 +14,8 @@ import subprocess
 import tempfile
 import time
 
+from record import quantile
+
 CODE = """#include <indurop/generated.h>
 #include <indurop/indurop.h>
 namespace {{
@@ -75,10 +77,6 @@ class Bench:
         """Median time from release to end of the module's runs before a tick, in ns."""
         runs = json.loads(self.check("indurop", "log", module, "--node", self.node, "-n", "200", "-o", "json"))["runs"]
         return statistics.median(run["response_ns"] for run in runs if run["tick"] < tick)
-
-
-def quantile(values, part):
-    return sorted(values)[int(part * (len(values) - 1))]
 
 
 def exchange_modules(options, folder):

@@ -3,7 +3,6 @@
 """The robot cell (examples/robot_cell), deployed to two boards, loses the node of one of them at a random instant of its work: the
 black boxes of both boards are repeated from their keyframes, and nothing differs. INDUROP_CELL_FAULTS says how often. Needs root."""
 
-import argparse
 import glob
 import json
 import os
@@ -13,6 +12,7 @@ import sys
 import tempfile
 import time
 
+from cell import read_arguments
 from deployed_test import DeployedCell, deploy, pids
 from middle_test import BETWEEN_BOXES_S, differing, is_closed
 
@@ -49,11 +49,7 @@ def lose_a_node(cell, number):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--bin", required=True)
-    parser.add_argument("--cell", required=True, help="folder with plant.xml and what was built for it")
-    parser.add_argument("--lab", required=True, help="indurop-lab")
-    arguments = parser.parse_args()
+    arguments = read_arguments(__doc__, bin="folder of the programs", cell="folder with plant.xml and what was built for it", lab="indurop-lab")
     faults = int(os.environ.get("INDUROP_CELL_FAULTS", "1"))
     with tempfile.TemporaryDirectory() as folder, DeployedCell(arguments, folder) as cell:
         deploy(cell)

@@ -1,13 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """A robot cell (examples/robot_cell) that runs somewhere, as its tests see it."""
 
+import argparse
 import csv
 import json
+import os
 import subprocess
 import tempfile
 import time
 
 PATIENCE = 90  # seconds until whatever is waited for has happened
+
+
+def read_arguments(description, **paths):
+    """What was built, from the command line: for each of `paths` an option, whose value says what it is. They are absolute, because
+    programs run in other folders."""
+    parser = argparse.ArgumentParser(description=description)
+    for name, what in paths.items():
+        parser.add_argument("--" + name.replace("_", "-"), required=True, type=os.path.abspath, help=what)
+    return parser.parse_args()
 
 
 class Cell:

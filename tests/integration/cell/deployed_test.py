@@ -4,7 +4,6 @@
 a cable is pulled, continues when it is back, gets another ladder program while the robot moves, and is restarted when a board's node
 is killed. Needs root."""
 
-import argparse
 import json
 import os
 import shutil
@@ -13,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-from cell import Cell, jobs
+from cell import Cell, jobs, read_arguments
 
 SKIPPED = 77
 UNREACHABLE = 6
@@ -165,11 +164,7 @@ def kill(cell):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--bin", required=True)
-    parser.add_argument("--cell", required=True, help="folder with plant.xml and what was built for it")
-    parser.add_argument("--lab", required=True, help="indurop-lab")
-    arguments = parser.parse_args()
+    arguments = read_arguments(__doc__, bin="folder of the programs", cell="folder with plant.xml and what was built for it", lab="indurop-lab")
     with tempfile.TemporaryDirectory() as folder, DeployedCell(arguments, folder) as cell:
         deploy(cell)
         work(cell)

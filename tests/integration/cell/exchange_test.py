@@ -5,7 +5,6 @@ and again at arbitrary instants, on one board and on two: all values of the cell
 bit by bit. In real time, a ladder that behaves in another way is not exchanged, because its
 shadow differs, and one that goes wrong is replaced by the previous one. INDUROP_CELL_EXCHANGED says how many simulations."""
 
-import argparse
 import csv
 import os
 import random
@@ -15,6 +14,7 @@ import sys
 import tempfile
 import time
 
+from cell import read_arguments
 from cell_test import RunningCell, copy_configuration
 from stops_test import configure
 
@@ -38,11 +38,11 @@ class Simulation:
         return subprocess.run([f"{self.arguments.bin}/indurop", *words], cwd=self.folder, text=True, capture_output=True, timeout=120,
                               check=False)
 
-    def exchange(self, board, module, file):
-        """The tick with which another version began; None: the simulation has ended."""
+    def exchange(self, ladder):
+        """The tick with which another version of the ladder program began; None: the simulation has ended."""
+        node = f"{self.boards[0]}-sim" if len(self.boards) > 1 else self.boards[0]
         while self.process.poll() is None:
-            node = f"{board}-sim" if len(self.boards) > 1 else board
-            done = self.indurop("reload", module, file, "--node", node, "--health", "0s")
+            done = self.indurop("reload", "main", ladder, "--node", node, "--health", "0s")
             began = re.search(r"runs since tick (\d+); (\d+) ticks without new values", done.stdout)
             if began:
                 assert began[2] == "0", done.stdout
@@ -89,7 +89,7 @@ def without_a_difference(arguments, configuration, boards, simulations):
             ticks = []
             while len(ticks) == 0 or ticks[-1] is not None:
                 time.sleep(random.uniform(0, 0.05))
-                ticks.append(simulation.exchange(boards[0], "main", ladders[len(ticks) % 2]))
+                ticks.append(simulation.exchange(ladders[len(ticks) % 2]))
             compare(reference, simulation.values(), boards)
             exchanged = [tick for tick in ticks if tick is not None]
             assert len(exchanged) >= 2, "nothing was exchanged"
@@ -135,14 +135,8 @@ def in_real_time(arguments):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--bin", required=True)
-    parser.add_argument("--cell", required=True, help="folder with module.xml and plant.xml")
-    parser.add_argument("--io-module", required=True)
-    parser.add_argument("--visitor", required=True, help="the module of visitor.cpp")
-    arguments = parser.parse_args()
-    for path in ("bin", "cell", "io_module", "visitor"):
-        setattr(arguments, path, os.path.abspath(getattr(arguments, path)))
+    arguments = read_arguments(__doc__, bin="folder of the programs", cell="folder with module.xml and plant.xml", io_module="libiodispat.so",
+                               visitor="the module of visitor.cpp")
     simulations = int(os.environ.get("INDUROP_CELL_EXCHANGED", "1"))
     without_a_difference(arguments, "module.xml", [f"exchanged_{os.getpid()}"], simulations)
     without_a_difference(arguments, "plant.xml", [f"plc_{os.getpid()}", f"motion_{os.getpid()}"], simulations)

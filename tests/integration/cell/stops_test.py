@@ -4,13 +4,14 @@
 the light curtain at random instants, for a moment or for long, resets and starts it again: the arm stands until then, no part is
 lost, and the cell goes on with its work. INDUROP_CELL_STOPS says how many such visits, INDUROP_CELL_SEED the first one."""
 
-import argparse
 import os
 import random
 import re
 import subprocess
 import sys
 import tempfile
+
+from cell import read_arguments
 
 WORK_S = 30  # after the last start; a part takes about six
 EXPECTED = 3  # parts within this time
@@ -68,18 +69,13 @@ def wrong(output):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--bin", required=True)
-    parser.add_argument("--cell", required=True, help="folder with module.xml")
-    parser.add_argument("--io-module", required=True)
-    parser.add_argument("--visitor", required=True, help="the module of visitor.cpp")
-    arguments = parser.parse_args()
+    arguments = read_arguments(__doc__, bin="folder of the programs", cell="folder with module.xml", io_module="libiodispat.so",
+                               visitor="the module of visitor.cpp")
     first = int(os.environ.get("INDUROP_CELL_SEED", random.randrange(1_000_000)))
     visits = int(os.environ.get("INDUROP_CELL_STOPS", "12"))
     failed = 0
     with tempfile.TemporaryDirectory() as folder:
-        modules = configure(os.path.abspath(arguments.cell), os.path.abspath(arguments.io_module), os.path.abspath(arguments.visitor),
-                            folder)
+        modules = configure(arguments.cell, arguments.io_module, arguments.visitor, folder)
         for seed in range(first, first + visits):
             presses, end = visit(seed)
             file = os.path.join(folder, "module.xml")
