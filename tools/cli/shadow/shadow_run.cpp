@@ -137,6 +137,11 @@ Result<ShadowReport, Failure> run_shadow(Context& context, const ShadowRequest& 
   if (!index) {
     return index.error();
   }
+  const std::string file = request.file.empty() ? fixed_text(run->run.module(*index).file) : request.file;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) {
+    return Failure{kCheckFailed, fmt::format("{}: no such file; build it, or correct its name", file)};
+  }
   const TemporaryFolder folder;
   if (folder.path().empty()) {
     return Failure{kFailed, "no temporary folder can be made; is TMPDIR writable?"};
@@ -150,8 +155,7 @@ Result<ShadowReport, Failure> run_shadow(Context& context, const ShadowRequest& 
       options.board.empty() ? fixed_text(run->run.block().config_file) : fixed_text(run->run.block().plant_file);
   options.replay.file = folder.path() / "runs.mcap";
   options.replay.report = folder.path() / "shadow.json";
-  options.replay.with = {request.module + "=" +
-                         (request.file.empty() ? fixed_text(run->run.module(*index).file) : request.file)};
+  options.replay.with = {request.module + "=" + file};
   if (const auto recorded = record(request.node, options.replay.file, request.duration_ns); !recorded) {
     return recorded.error();
   }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -110,11 +109,6 @@ void print_json(Context& context, const ReloadOptions& options, const operate::R
 
 // Compares the new version with the running one. Returns nothing if it may be exchanged, else the exit code.
 std::optional<int> compare_as_shadow(Context& context, ReloadOptions& options, const std::string& node) {
-  std::error_code ignored;
-  if (!options.request.file.empty() && !std::filesystem::exists(options.request.file, ignored)) {
-    context.out.error(fmt::format("{}: no such file; build it, or correct its name", options.request.file));
-    return kCheckFailed;
-  }
   auto found = run_shadow(context, {node, options.module, options.request.file, options.shadow_ns});
   if (!found) {
     return report(context.out, found.error());

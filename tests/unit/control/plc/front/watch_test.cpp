@@ -53,6 +53,7 @@ TEST(PlcWatch, Every_variable_that_stays_has_its_place_also_inside_of_instances)
     next += packed_size(*one.type);
   }
   EXPECT_LE(next, sut.bytes);
+  EXPECT_LT(sut.bytes, next + 256) << "reserves";
   for (const char* path : {"A", "M.ON", "M.T.ET", "M.T.Q", "M.N", "P", "C", "L[0].N", "L[1].T.PT", "S"}) {
     EXPECT_NE(sut.find(path), nullptr) << path;
   }
