@@ -97,7 +97,7 @@ exchange() {
   reload 4 main_drops.so --shadow 8s
   say "One with another rung is equal, and continues where the ladder was"
   reload 0 main_remembers.so --shadow 2s --health 1s
-  say "One with a fault lights the red lamp: the previous one is back in the next period, and the operator starts the cell again"
+  say "One with a fault lights the red lamp: the previous one is back two periods later, and the operator starts the cell again"
   reload 5 main_wrong.so --guard 'O4 < 1'
   show indurop set --node cell CELL::panel.start true
   wait_for cell ROBOT_MODULE_STATE.eState ROBOT_GROUP_MOVING
