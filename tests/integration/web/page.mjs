@@ -198,6 +198,21 @@ await browser.run({
     }
   },
 
+  async "What is typed as a trigger stays while the charts change"() {
+    await command("start-tour");
+    const page = await browser.open(`plots?m=auto&t=PLC_ROBOT::ROBOT_ARM.tool_speed > 50&pre=40&post=80&c=${JOINTS}`, wide);
+    const tick = () => /tick \d+/.exec(document.querySelector("p.quiet[role=status]").innerText)?.[0];
+    await sees(page, "tick ");
+    for (const [i, text] of ["mis", "sing", " > 1"].entries()) {
+      const before = await page.evaluate(tick);
+      if (i === 0) await fill(page, "Trigger", text); else await page.keyboard.type(text);
+      await page.waitForFunction(`(${tick})() !== ${JSON.stringify(before)}`);
+    }
+    await page.keyboard.press("Enter");
+    await sees(page, "no variable 'missing'");
+    await page.close();
+  },
+
   async "Charts show a recording"() {
     await command("start-tour");
     await command("record");

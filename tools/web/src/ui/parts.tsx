@@ -2,7 +2,7 @@
 // Components that several views share.
 
 import { type ComponentChildren, Fragment } from "preact";
-import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 
 interface PanelProps {
   title: string;
@@ -53,6 +53,18 @@ export function DataTable({ label, more = "", children }: { label: string; more?
     <div class="scroll" tabIndex={0} role="region" aria-label={label}>
       <table ref={table} class={`data-table ${more}`}>{children}</table>
     </div>);
+}
+
+// Properties of an <input> that calls `enter` with Enter and when it is left. What is typed stays in it until then: the view is
+// rendered again with each new sample, and `value` would replace it.
+export function useEntry(value: string | number, enter: (text: string) => void) {
+  const [typed, set_typed] = useState<string | null>(null);
+  return {
+    value: typed ?? value,
+    onInput: (event: Event) => set_typed((event.currentTarget as HTMLInputElement).value),
+    onBlur: () => set_typed(null),
+    onChange: (event: Event) => { set_typed(null); enter((event.currentTarget as HTMLInputElement).value); },
+  };
 }
 
 interface ConfirmProps {

@@ -6,7 +6,7 @@ import { post } from "../../api/http";
 import type { RecordedTick, ReplayedTick } from "../../api/types";
 import { useMay } from "../../shell/plant";
 import { count, plural, span } from "../../ui/format";
-import { DataTable, Name, Waiting } from "../../ui/parts";
+import { DataTable, Name, useEntry, Waiting } from "../../ui/parts";
 import { useRequest } from "../../ui/store";
 
 const TIMEOUT_MS = 60_000;
@@ -105,6 +105,7 @@ function KeptAfter({ path, board, tick }: { path: string; board: string; tick: n
 // The buttons, above the charts.
 export function StepBar({ step, error, go, close }: BarProps) {
   const to = (tick: number | null | undefined) => { if (tick !== null && tick !== undefined) go(tick); };
+  const tick = useEntry(step?.tick ?? "", (text) => { if (text) go(Number(text)); });
   const handle_key = (event: KeyboardEvent) => {
     if ((event.target as HTMLElement).tagName === "INPUT" || !["ArrowLeft", "ArrowRight"].includes(event.key)) return;
     event.preventDefault();
@@ -116,7 +117,7 @@ export function StepBar({ step, error, go, close }: BarProps) {
         <button type="button" disabled={(step?.previous ?? null) === null} onClick={() => to(step?.previous)}>Step back</button>
         <button type="button" disabled={(step?.next ?? null) === null} onClick={() => to(step?.next)}>Step forward</button>
         <label class="choice">Tick{" "}
-          <input class="ticks" type="number" min={0} value={step?.tick ?? ""} onChange={(event) => { if (event.currentTarget.value) go(event.currentTarget.valueAsNumber); }} /></label>
+          <input class="ticks" type="number" min={0} {...tick} /></label>
         <button type="button" onClick={close}>Close</button>
         <span class="quiet">{step && `${plural(step.runs.length, "run")} in ${span(step.end_ns - step.begin_ns)}. A click in a chart goes there, arrow keys step.`}</span>
       </div>

@@ -6,6 +6,7 @@ import type uPlot from "uplot";
 import type { BoardSummary } from "../../api/types";
 import { change_query } from "../../ui/address";
 import { plural, span } from "../../ui/format";
+import { useEntry } from "../../ui/parts";
 import type { Part } from "../../ui/paths";
 import { capture_until_ended, CapturedSamples } from "./capture";
 import { Chart, type Line, type Shown } from "./chart";
@@ -23,9 +24,10 @@ interface Props {
 }
 
 function Ticks({ label, name, value }: { label: string; name: string; value: number }) {
+  const entry = useEntry(value, (text) => change_query({ [name]: text }));
   return (
     <label class="choice">{label}{" "}
-      <input type="number" class="ticks" min={0} max={9999} value={value} onChange={(event) => change_query({ [name]: event.currentTarget.value })} /></label>);
+      <input type="number" class="ticks" min={0} max={9999} {...entry} /></label>);
 }
 
 // "error" of "error = target - actual", as the server names the channel.
@@ -58,6 +60,7 @@ export function Triggered({ board, scope, charts, drawable, line, remove, drop }
   const [marks, set_marks] = useState<number[]>([]);
   const [drawn, set_drawn] = useState(0);
   useEffect(() => set_drawn((n) => n + 1), [captured, zoomed]);
+  const trigger = useEntry(scope.trigger, (text) => change_query({ t: text.trim() }));
   const wanted = [...drawable, ...scope.expressions];
   const plots = useRef(new Map<number, uPlot>());
   const key = [board.board, board.layout, scope.mode, scope.trigger, scope.pre, scope.post, wanted.join("\n")].join(" ");
@@ -78,8 +81,7 @@ export function Triggered({ board, scope, charts, drawable, line, remove, drop }
     <>
       <form class="bar" onSubmit={(event) => { event.preventDefault(); set_held(false); set_round(round + 1); }}>
         <label class="choice trigger">Trigger{" "}
-          <input type="text" placeholder="NAME rises, or speed > 100" value={scope.trigger} spellcheck={false} autocomplete="off"
-            onChange={(event) => change_query({ t: event.currentTarget.value.trim() })} /></label>
+          <input type="text" placeholder="NAME rises, or speed > 100" spellcheck={false} autocomplete="off" {...trigger} /></label>
         <Ticks label="Before" name="pre" value={scope.pre} />
         <Ticks label="After" name="post" value={scope.post} />
         {scope.mode === "single" ? <button type="submit">Capture again</button>
