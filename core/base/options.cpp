@@ -36,7 +36,8 @@ constexpr char kMark = '\x01';
 std::vector<std::string> marked(std::vector<std::string> words) {
   for (std::string& word : words) {
     const bool negative =
-        word.size() > 1 && word[0] == '-' && (std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.');
+        word == "-inf" || (word.size() > 1 && word[0] == '-' &&
+                           (std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.'));
     if (negative || (!word.empty() && word[0] == '[')) {
       word.insert(word.begin(), kMark);
     }

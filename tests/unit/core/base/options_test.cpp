@@ -71,8 +71,8 @@ TEST(Options, What_is_not_given_keeps_what_it_holds) {
 
 TEST(Options, Negative_numbers_and_brackets_are_values) {
   Sample sut;
-  EXPECT_EQ(sut.parse({"gain", "-2.5", "[1, 2]", "--core", "-1", "--rate", "-.5"}).outcome, Outcome::Parsed);
-  EXPECT_THAT(sut.files, ElementsAre("gain", "-2.5", "[1, 2]"));
+  EXPECT_EQ(sut.parse({"gain", "-2.5", "-inf", "[1, 2]", "--core", "-1", "--rate", "-.5"}).outcome, Outcome::Parsed);
+  EXPECT_THAT(sut.files, ElementsAre("gain", "-2.5", "-inf", "[1, 2]"));
   EXPECT_EQ(sut.core, -1);
   EXPECT_EQ(sut.rate, -0.5);
 }
