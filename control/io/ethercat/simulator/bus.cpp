@@ -35,11 +35,12 @@ void SimulatedBus::advance(Time now) {
       planned.has_begun = true;
       begin(planned.fault);
     }
-    if (planned.has_begun && !planned.has_ended && planned.fault.at + planned.fault.duration <= now) {
+    if (planned.has_begun && planned.fault.at + planned.fault.duration <= now) {
       planned.has_ended = true;
       end(planned.fault);
     }
   }
+  std::erase_if(faults_, [](const Planned& planned) { return planned.has_ended; });
 }
 
 void SimulatedBus::restart(std::size_t slave) {
@@ -134,7 +135,7 @@ void SimulatedBus::end(const Fault& fault) {
 
 const Fault* SimulatedBus::active(FaultKind kind) const noexcept {
   const auto found = std::find_if(faults_.begin(), faults_.end(), [kind](const Planned& planned) {
-    return planned.fault.kind == kind && planned.has_begun && !planned.has_ended;
+    return planned.fault.kind == kind && planned.has_begun;
   });
   return found == faults_.end() ? nullptr : &found->fault;
 }
