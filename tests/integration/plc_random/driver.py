@@ -15,6 +15,7 @@ FLAGS = ["-std=c++20", "-g0", "-w"] + [f"-fno-builtin-{name}{end}" for end in ("
     "sqrt", "log", "log10", "exp", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "pow")]
 
 HEAD = """#include "{module}.cpp"
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -59,7 +60,10 @@ template <class T, std::size_t N> std::string show(const std::array<T, N>& v) {{
 // Scans before this one are not run, and those from the other one on.
 std::size_t first_scan = 0;
 std::size_t end_scan = SIZE_MAX;
+// Names of programs that are not run: a fault has left them in the middle of a scan, where loops may have no end.
+std::vector<std::string> faulted;
 template <class Program, class Show> void run_scans(const char* name, Program& program, Show shown) {{
+  if (std::find(faulted.begin(), faulted.end(), name) != faulted.end()) return;
   const std::int64_t times[] = {{{times}}};
   for (std::size_t i = first_scan; i < std::size(times) && i < end_scan; ++i) {{
     const std::int64_t at = times[i];
@@ -103,10 +107,12 @@ void keep(const char* path, bool back) {{
 }}
 }}  // namespace
 
-// Nothing: all scans. SCAN FILE: those before, and what is kept then goes into the file. FILE SCAN: the others, with that.
+// Nothing: all scans. SCAN FILE: those before, and what is kept then goes into the file. FILE SCAN NAME...: the others, with
+// that, of all programs but these.
 int main(int argc, char** argv) {{
   const bool back = argc > 2 && std::atoi(argv[1]) == 0;
   if (argc > 2) (back ? first_scan : end_scan) = static_cast<std::size_t>(std::atoi(argv[back ? 2 : 1]));
+  if (back) faulted.assign(argv + 3, argv + argc);
   if (back) keep(argv[1], true);
 {runs}  if (argc > 2 && !back) keep(argv[2], false);
 }}
@@ -235,13 +241,13 @@ def results(path, folder, *arguments):
 def resumed(path, folder, scan):
     """As results(), but what the programs keep goes to another process before this scan."""
     out = results(path, folder, str(scan), "kept")
-    after = results(path, folder, "kept", str(scan))
+    faulted = [name for name, scans in out.items() if scans[-1][0] != ""]
+    after = results(path, folder, "kept", str(scan), *faulted)
     for word in ("missing", "astray"):
         if word in out or word in after:
             raise Failed(f"{word}: {out.get(word)} {after.get(word)}")
     for name, scans in after.items():
-        if name in out and out[name][-1][0] == "":
-            out[name] += scans
+        out[name] += scans
     return out
 
 
