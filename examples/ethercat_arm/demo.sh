@@ -21,9 +21,6 @@ cleanup() {
   rm -f bus.fifo
   for name in $node arm_ladder; do indurop clean --node $name >/dev/null 2>&1 || true; done
 }
-trap cleanup EXIT
-trap 'exit 130' INT TERM HUP
-
 value() { indurop get --node $node "$1" 2>/dev/null; }
 show_state() { indurop get --node $node 'CELL::*' ROBOT_JOB ROBOT_MODULE_STATE EMERGENCY_STOP 'BUS::*' I0 I1 I3 I4 I5 I6 O0 O1 O8 O9; }
 # wait_for VARIABLE VALUE SECONDS
@@ -48,6 +45,8 @@ if ! ip link add ecarm0 type veth peer name ecarm1; then
   echo "CAP_NET_ADMIN and CAP_NET_RAW; in a container: --cap-add NET_ADMIN --cap-add NET_RAW"
   exit 1
 fi
+trap cleanup EXIT  # not before: the interface and the pipe may be those of another demo
+trap 'exit 130' INT TERM HUP
 ip link set ecarm0 up
 ip link set ecarm1 up
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wires of sensors to the simulated input terminal: lines of the script that indurop-ecsim reads.
+// The wires of sensors to the simulated input terminal: lines of the script that indurop-ecsim reads. A terminal is
+// wired to one world: that of another run in this folder, such as a simulated one, waits until the first has ended.
 #pragma once
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <array>
@@ -22,8 +24,7 @@ class TerminalWires {
   // Sends what has changed. All is sent again after the simulation was away.
   void send() {
     if (pipe_ < 0) {
-      pipe_ = open(fifo_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
-      sent_.fill(kUnknown);
+      connect();
     }
     std::string lines;
     for (std::size_t i = 0; pipe_ >= 0 && i < now_.size(); ++i) {
@@ -42,6 +43,13 @@ class TerminalWires {
  private:
   static constexpr int kUnknown = -1;
 
+  void connect() {
+    pipe_ = open(fifo_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    sent_.fill(kUnknown);
+    if (pipe_ >= 0 && flock(pipe_, LOCK_EX | LOCK_NB) != 0) {
+      disconnect();
+    }
+  }
   void disconnect() {
     if (pipe_ >= 0) {
       close(pipe_);

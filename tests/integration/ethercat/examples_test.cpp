@@ -2,7 +2,14 @@
 // The examples of EtherCAT in a network of their own. ethercat_arm: a tour of the arm on simulated drives to its end,
 // then a drive without power, which is named, stops all, and comes back, on one board and on two. ethercat_33: all of
 // its axes move. ethercat_current: the torque follows.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <terminal_wires.h>
+#include <unistd.h>
+
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "tests/support/program.h"
@@ -20,6 +27,30 @@ test::Environment environment(const std::string& folder) {
   return made;
 }
 
+// A copy of the arm's folder. Two runs at a time need one each: the pipe to the simulated bus is in it.
+class ArmFolder {
+ public:
+  ArmFolder() : path_(std::filesystem::temp_directory_path() / ("indurop_arm_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(path_);
+    for (const auto& entry : std::filesystem::directory_iterator(ARM_FOLDER)) {
+      if (entry.is_regular_file()) {
+        std::filesystem::copy(entry.path(), path_ / entry.path().filename());
+      }
+    }
+  }
+  ArmFolder(const ArmFolder&) = delete;
+  ArmFolder& operator=(const ArmFolder&) = delete;
+  ~ArmFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  [[nodiscard]] std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
 class EthercatExamples : public testing::Test {
  protected:
   void SetUp() override {
@@ -30,7 +61,8 @@ class EthercatExamples : public testing::Test {
 };
 
 TEST_F(EthercatExamples, Works_to_the_end_of_a_tour_and_stops_while_a_drive_is_away) {
-  test::Program sut({ARM_DEMO}, environment(ARM_FOLDER));
+  const ArmFolder folder;
+  test::Program sut({ARM_DEMO}, environment(folder.path()));
   ASSERT_EQ(sut.wait(std::chrono::seconds(150)), 0) << sut.out();
   const std::string out = sut.out();
   EXPECT_THAT(out, testing::HasSubstr("visitor \"hits the emergency stop\""));
@@ -46,18 +78,9 @@ TEST_F(EthercatExamples, Works_to_the_end_of_a_tour_and_stops_while_a_drive_is_a
 }
 
 TEST_F(EthercatExamples, Works_with_the_bus_on_one_of_two_boards) {
-  // Its folder has a pipe to the simulation in it, so each of two demos at a time needs one of its own.
-  const auto folder = std::filesystem::temp_directory_path() / ("indurop_arm_" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
-  for (const auto& entry : std::filesystem::directory_iterator(ARM_FOLDER)) {
-    if (entry.is_regular_file()) {
-      std::filesystem::copy(entry.path(), folder / entry.path().filename());
-    }
-  }
-  test::Program sut({ARM_DEMO, "plant"}, environment(folder.string()));
-  const int code = sut.wait(std::chrono::seconds(150));
-  std::filesystem::remove_all(folder);
-  ASSERT_EQ(code, 0) << sut.out();
+  const ArmFolder folder;
+  test::Program sut({ARM_DEMO, "plant"}, environment(folder.path()));
+  ASSERT_EQ(sut.wait(std::chrono::seconds(150)), 0) << sut.out();
   const std::string out = sut.out();
   const std::size_t pulled = out.find("Drive 3 loses its power");
   ASSERT_NE(pulled, std::string::npos) << out;
@@ -66,21 +89,43 @@ TEST_F(EthercatExamples, Works_with_the_bus_on_one_of_two_boards) {
 }
 
 TEST(EthercatExample, Of_the_arm_in_virtual_time_replays_without_a_difference) {
-  const std::string recording =
-      std::filesystem::temp_directory_path() / ("arm_" + std::to_string(::getpid()) + ".mcap");
+  const ArmFolder folder;
+  const std::string recording = folder.path() + "/arm.mcap";
   const std::string node = "ethercat_sim_" + std::to_string(::getpid());
-  const std::string file = std::string(ARM_FOLDER) + "/module.xml";
-  const auto indurop = [](std::vector<std::string> words) {
+  const auto indurop = [&folder](std::vector<std::string> words) {
     words.insert(words.begin(), std::string(PROGRAMS) + "/indurop");
-    return test::Program(words, environment(ARM_FOLDER)).finish();
+    return test::Program(words, environment(folder.path())).finish();
   };
-  const auto run = indurop({"run", file, "--sim", "--until", "5s", "--node", node, "--record", recording});
+  const auto run =
+      indurop({"run", folder.path() + "/module.xml", "--sim", "--until", "5s", "--node", node, "--record", recording});
   ASSERT_EQ(run.code, 0) << run.out;
   EXPECT_THAT(run.out, testing::HasSubstr("EtherCAT ecarm0: slave 7 (InduRoP simulated drive): operates"));
   const auto replay = indurop({"replay", recording, "--node", node});
   EXPECT_EQ(replay.code, 0) << replay.out;
   EXPECT_THAT(replay.out, testing::HasSubstr(" values: equal"));
-  std::filesystem::remove(recording);
+}
+
+TEST(EthercatExample, Of_two_worlds_only_the_first_is_wired_to_the_terminal) {
+  const ArmFolder folder;
+  const std::string fifo = folder.path() + "/bus.fifo";
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  const int terminal = open(fifo.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  const auto received = [terminal] {
+    std::array<char, 4096> bytes{};
+    const ssize_t size = read(terminal, bytes.data(), bytes.size());
+    return std::string(bytes.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+  };
+  std::optional<TerminalWires> first(fifo);
+  TerminalWires second(fifo);
+  first->send();
+  EXPECT_THAT(received(), testing::HasSubstr("0s value slave=0 at=6030:1 to=0\n"));
+  second.set(3, true);
+  second.send();
+  EXPECT_EQ(received(), "");
+  first.reset();
+  second.send();
+  EXPECT_THAT(received(), testing::HasSubstr("0s value slave=0 at=6030:1 to=1\n"));
+  close(terminal);
 }
 
 TEST_F(EthercatExamples, Thirty_three_axes_move) {
