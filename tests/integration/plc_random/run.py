@@ -7,6 +7,7 @@ where that is set. A difference is printed with its program; --only SEED makes t
 
 import argparse
 import concurrent.futures
+import contextlib
 import os
 import random
 import re
@@ -38,7 +39,12 @@ def differences(program, scans):
 
 
 def programs_of(seeds):
-    return [one for one in (Program(seed, number) for number, seed in enumerate(seeds)) if one.ends()]
+    """Those whose loops all end, also the loops of FB_Init, which runs while instances are made."""
+    programs = []
+    for number, seed in enumerate(seeds):
+        with contextlib.suppress(tree.Endless):
+            programs.append(Program(seed, number))
+    return [one for one in programs if one.ends()]
 
 
 def check_batch(build, folder, seeds, optimize):
