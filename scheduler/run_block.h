@@ -16,7 +16,7 @@
 namespace indurop::scheduler {
 
 inline constexpr std::uint64_t kRunMagic = 0x314e555255444e49ULL;  // "INDURUN1"
-inline constexpr std::uint32_t kRunAbi = 9;
+inline constexpr std::uint32_t kRunAbi = 10;
 inline constexpr std::size_t kTextLength = 160;
 
 enum class NodeState : std::uint32_t { Starting, Running, Stopping, Stopped, Failed };
@@ -124,6 +124,7 @@ struct ModuleRecord {
 struct ProcessSlot {
   rt::SignalWord wake;                   // the node wakes the process
   std::atomic<std::uint64_t> released;   // last release number, 0: none yet
+  std::atomic<std::uint64_t> taken;      // release number of the last run that a process began, or took to begin
   std::atomic<std::uint64_t> done;       // release number of the last finished run
   std::atomic<std::int64_t> release_ns;  // grid time of `released`
   std::atomic<std::uint64_t> release_tick;
@@ -133,6 +134,15 @@ struct ProcessSlot {
   std::atomic<std::uint32_t> stop;          // 1: waitPeriod() must return false / the process should end
   std::atomic<std::uint32_t> module;        // index
   std::atomic<std::int32_t> obtained_fifo;  // priority obtained, 0 none
+  // The process is exchanged while the node runs: another one follows it between two runs. Process ids, 0: none.
+  rt::SignalWord turn;                     // the node wakes a process that waits for its turn
+  std::atomic<std::int32_t> runner;        // began the run `taken`; written by it
+  std::atomic<std::int32_t> successor;     // launched next to the one that runs; written by the node
+  std::atomic<std::int32_t> ready;         // waits for its turn; written by it
+  std::atomic<std::int32_t> may_follow;    // may take the place of `pid` now; written by the node
+  std::atomic<std::int32_t> followed;      // has done so, after the last run of the other one; written by it
+  std::atomic<std::uint64_t> follow_tick;  // after that of this run; written by the same
+  std::atomic<std::int32_t> previous;      // stays ready when it was followed; written by the node
 };
 
 // One entry of the slot log: which module ran when. Ring, newest overwrites oldest.

@@ -185,7 +185,11 @@ ModuleLibrary::Uses uses_of(const config::ModuleFacts& facts) {
 Candidate make_candidate(const CandidateTask& task) {
   Candidate candidate;
   const auto before = keys::digest_of_file(task.file);
+  candidate.digest = before ? before->digest : std::string();
   candidate.needs_restart = CandidateCheck(task, candidate).run();
+  if (task.config.modules[task.module].type == scheduler::ModuleType::Process) {
+    return candidate;
+  }
   if (candidate.errors.empty() && task.try_first) {
     if (const std::string failed = try_module(task.file); !failed.empty()) {
       candidate.errors.push_back(fmt::format("{}: error: {}", task.file.string(), failed));

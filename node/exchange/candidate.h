@@ -42,7 +42,8 @@ struct CandidateTask {
 };
 
 struct Candidate {
-  ModuleLibrary library;
+  std::string digest;     // of the file
+  ModuleLibrary library;  // empty: it is a process
   Carry carry;
   AllowedAccess access;             // what it reads and writes
   VariableChange variables;         // that it brings; the store has places for them
@@ -53,7 +54,7 @@ struct Candidate {
 
 ModuleLibrary::Uses uses_of(const config::ModuleFacts& facts);
 
-// Checks and loads it, next to the running version. Static constructors of the file run.
+// Checks and loads it, next to the running version. Static constructors of the file run. A process is only checked.
 Candidate make_candidate(const CandidateTask& task);
 
 }  // namespace indurop::node

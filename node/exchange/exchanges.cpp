@@ -55,11 +55,11 @@ bool Exchanges::is_open(std::uint32_t module) const noexcept {
 }
 
 std::string Exchanges::exchanged_module() const {
-  return single_ ? record(module_).name : "";
+  return single_ || process_ ? record(module_).name : "";
 }
 
 std::string Exchanges::activity() const {
-  return single_               ? fmt::format("module {} is being exchanged", exchanged_module())
+  return single_ || process_   ? fmt::format("module {} is being exchanged", exchanged_module())
          : set_.is_under_way() ? "a deployment exchanges modules"
                                : "";
 }
@@ -70,7 +70,8 @@ void Exchanges::poll(rt::MonoTime now) {
   set_.poll(now);
   for (std::uint32_t i = 0; i < context_.parts.run.module_count; ++i) {
     const ModuleCommand command = scheduler::waiting_command(record(i));
-    const bool answers_later = single_ && module_ == i && !single_->result();
+    const bool answers_later =
+        module_ == i && ((single_ && !single_->result()) || (process_ && !process_->has_answered()));
     if (command == ModuleCommand::Exchange) {
       set_.command(exchanged_module());
     } else if ((command == ModuleCommand::Reload || command == ModuleCommand::Back) && !answers_later) {
@@ -90,6 +91,12 @@ void Exchanges::go_on(rt::MonoTime now) {
       single_.reset();
     }
   }
+  if (process_) {
+    process_->go_on(now);
+    if (process_->is_over()) {
+      process_.reset();
+    }
+  }
 }
 
 void Exchanges::accept(std::uint32_t module, ModuleCommand command) {
@@ -103,7 +110,7 @@ void Exchanges::accept(std::uint32_t module, ModuleCommand command) {
   }
   const auto request = operate::take_reload_request(context_.parts.node);
   const config::Module& configured = context_.parts.config.modules[module];
-  if (single_) {
+  if (single_ || process_) {
     answer(module, CommandResult::Refused,
            fmt::format("module {} is being exchanged; repeat the command when its health window is over",
                        exchanged_module()));
@@ -111,12 +118,22 @@ void Exchanges::accept(std::uint32_t module, ModuleCommand command) {
     answer(module, CommandResult::Refused, "it has ended: the schedule is without it");
   } else if (!request) {
     answer(module, CommandResult::Refused, "the request cannot be read; repeat the command");
-  } else if (configured.type != scheduler::ModuleType::Thread) {
-    answer(module, CommandResult::Refused,
-           "a process is not exchanged while it runs: `indurop restart` launches its new file");
   } else if (configured.operation == scheduler::Operation::NonReal) {
     answer(module, CommandResult::Refused,
-           "it runs in the background, where no run is waited for: stop and run the node to load its new file");
+           configured.type == scheduler::ModuleType::Process
+               ? "it runs in the background, where no run is waited for: `indurop restart` launches its new file"
+               : "it runs in the background, where no run is waited for: stop and run the node to load its new file");
+  } else if (configured.type == scheduler::ModuleType::Process &&
+             (configured.signal != 0 || context_.parts.simulated)) {
+    answer(module, CommandResult::Refused,
+           configured.signal != 0
+               ? "its process is released by a signal, so no other one can follow it: `indurop restart` launches its "
+                 "new file"
+               : "in a simulation, a process is not exchanged: `indurop restart` launches its new file");
+  } else if (configured.type == scheduler::ModuleType::Process) {
+    module_ = module;
+    process_.emplace(context_, module);
+    process_->begin(*request);
   } else {
     module_ = module;
     single_.emplace(context_, module, false);
@@ -128,7 +145,9 @@ void Exchanges::accept_back(std::uint32_t module) {
   if (single_ && module_ == module && single_->is_watched()) {
     single_->await_answer();
     single_->go_back();
-  } else if (single_) {
+  } else if (process_ && module_ == module && process_->is_watched()) {
+    process_->go_back();
+  } else if (single_ || process_) {
     answer(module, CommandResult::Refused,
            fmt::format("module {} is being exchanged; repeat the command when that is over", exchanged_module()));
   } else if (!context_.previous.contains(module)) {
@@ -157,6 +176,10 @@ void Exchanges::end() {
   if (single_) {
     single_->end();
     single_.reset();
+  }
+  if (process_) {
+    process_->end();
+    process_.reset();
   }
   set_.end();
   for (auto& [module, library] : context_.previous) {

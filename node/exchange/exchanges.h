@@ -11,6 +11,7 @@
 #include "config/check/check.h"
 #include "node/exchange/exchange_set.h"
 #include "node/exchange/module_exchange.h"
+#include "node/exchange/process_exchange.h"
 
 namespace indurop::node {
 
@@ -50,8 +51,9 @@ class Exchanges {
   }
 
   ExchangeContext context_;
-  std::uint32_t module_ = 0;              // of `single_`
-  std::optional<ModuleExchange> single_;  // none: no exchange of one module is in progress
+  std::uint32_t module_ = 0;                // of `single_` or `process_`; both none: none is in progress
+  std::optional<ModuleExchange> single_;    // of a thread
+  std::optional<ProcessExchange> process_;  // of a process
   ExchangeSet set_;
 };
 

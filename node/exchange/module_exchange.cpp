@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/rt/clock.h"
+#include "node/exchange/version_text.h"
 #include "store/runtime/host.h"
 
 namespace indurop::node {
@@ -193,8 +194,7 @@ bool ModuleExchange::is_wanted(Candidate& candidate) {
   report_.plan = candidate.carry.plan;
   report_.to = candidate.library.digest();
   if (!report_.errors.empty()) {
-    answer(CommandResult::Refused, fmt::format("the new version cannot run here: {} error{}", report_.errors.size(),
-                                               report_.errors.size() == 1 ? "" : "s"));
+    answer(CommandResult::Refused, count_errors(report_));
   } else if (report_.from == report_.to) {
     answer(CommandResult::Unchanged, "this version runs already");
   } else if (guard_ && candidate.variables.changes_type_of(guard_->variable())) {

@@ -8,6 +8,7 @@
 #include "core/rt/copy_text.h"
 #include "node/exchange/module_exchange.h"
 #include "node/exchange/schedule_change.h"
+#include "node/exchange/version_text.h"
 #include "store/operate/journal.h"
 #include "store/runtime/host.h"
 
@@ -22,31 +23,11 @@ using scheduler::VersionState;
 constexpr std::chrono::seconds kNoGapFound{5};  // in addition to two periods
 constexpr std::chrono::milliseconds kReplacedPoll{1};
 constexpr int kCopiesInOneGo = 20;
-constexpr std::size_t kShownDigits = 12;
-
-std::string short_digest(const std::string& digest) {
-  return digest.substr(0, kShownDigits);
-}
 
 std::string numbers_of(const operate::ReloadReport& report) {
   return fmt::format(
       ": {} bytes kept, {} ticks left out, {} ns of copying, its first run ended {} us after its release",
       report.plan.with_state ? report.plan.bytes : 0, report.left_out, report.copying_ns, report.response_ns / 1000);
-}
-
-std::string text_of(Exchange::Reason reason, const scheduler::ModuleRecord& module) {
-  switch (reason) {
-    case Exchange::Reason::None:
-    case Exchange::Reason::Command:
-      break;
-    case Exchange::Reason::Fault:
-      return fmt::format("the new one faulted in tick {}: {}", module.fault_tick.load(), module.last_fault);
-    case Exchange::Reason::Overrun:
-      return "the new one overran its period";
-    case Exchange::Reason::Guard:
-      return "the guard did not hold";
-  }
-  return "by command";
 }
 
 }  // namespace

@@ -27,6 +27,8 @@ constexpr std::chrono::milliseconds kPoll{5};
 constexpr std::chrono::seconds kStartPatience{2};
 constexpr std::size_t kRestartsKept = 1000;
 
+}  // namespace
+
 std::string describe_end(int status) {
   if (WIFSIGNALED(status)) {
     return fmt::format("ended by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)));
@@ -34,14 +36,12 @@ std::string describe_end(int status) {
   return fmt::format("exited with code {}", WEXITSTATUS(status));
 }
 
-}  // namespace
-
 Processes::Processes(const config::Config& config, scheduler::RunBlock& run, std::string node, bool realtime,
                      Console& console, FailSafe& failsafe, tape::Tape* tape)
     : run_(run), node_(std::move(node)), realtime_(realtime), console_(console), failsafe_(failsafe), tape_(tape) {
   for (std::uint32_t i = 0; i < config.modules.size(); ++i) {
     if (config.modules[i].type == scheduler::ModuleType::Process) {
-      children_.push_back(Child{i, &config.modules[i], {}, -1, {}, {}, false});
+      children_.push_back(Child{i, &config.modules[i], config.modules[i].file, {}, -1, {}, {}, false});
     }
   }
 }
@@ -83,7 +83,7 @@ bool Processes::is_sound(Child& child) {
   if (run_.deployment[0] == '\0') {
     return true;
   }
-  const auto found = keys::digest_of_file(child.module->file);
+  const auto found = keys::digest_of_file(child.file);
   const std::string digest = found ? found->digest : std::string();
   if (child.digest.empty()) {
     child.digest = digest;
@@ -93,7 +93,7 @@ bool Processes::is_sound(Child& child) {
   }
   console_.about(child.module->name)
       .error("module {}: it is not started again, because {} is not what was deployed: its SHA-256 is {}, it was {}",
-             child.module->name, child.module->file.string(), digest.empty() ? "unknown" : digest, child.digest);
+             child.module->name, child.file.string(), digest.empty() ? "unknown" : digest, child.digest);
   return false;
 }
 
@@ -109,8 +109,7 @@ bool Processes::launch(Child& child) {
   at.pid.store(0, std::memory_order_relaxed);
   scheduler::ModuleRecord& module = record(child);
   module.state.store(ModuleState::Starting, std::memory_order_release);
-  const auto started = node::launch(
-      {child.module->file.string(), child.module->arguments, node_, std::to_string(child.index), module.core});
+  const auto started = launch_next_to(child.index, child.file);
   if (!started) {
     console_.about(module.name)
         .error("module {}: cannot be started: {}", module.name, std::strerror(started.error().sys_errno));
@@ -151,7 +150,7 @@ bool Processes::supervise(rt::MonoTime now, rt::MonoTime schedule) {
       } else {
         enforce_budget(child, schedule);
       }
-    } else if (module.state.load(std::memory_order_relaxed) == ModuleState::Restarting &&
+    } else if (module.state.load(std::memory_order_relaxed) == ModuleState::Restarting && !child.held &&
                schedule >= child.restart_at) {
       module.restarts.fetch_add(1, std::memory_order_relaxed);
       if (!launch(child)) {
@@ -179,6 +178,9 @@ void Processes::fault(Child& child, FaultKind kind, const std::string& text) {
 
 void Processes::died(Child& child, int status, rt::MonoTime schedule) {
   scheduler::ModuleRecord& module = record(child);
+  if (scheduler::ProcessSlot& at = slot(child); at.runner.load() == child.pid) {
+    at.done.store(at.taken.load(), std::memory_order_release);  // another process may follow
+  }
   child.pid = -1;
   module.pid.store(0, std::memory_order_release);
   if (child.stopping) {
@@ -259,13 +261,14 @@ void Processes::kill_hanging(std::uint32_t module) {
   }
 }
 
+const Processes::Child* Processes::find(std::uint32_t module) const noexcept {
+  const auto found =
+      std::find_if(children_.begin(), children_.end(), [module](const Child& child) { return child.index == module; });
+  return found == children_.end() ? nullptr : &*found;
+}
+
 Processes::Child* Processes::find(std::uint32_t module) noexcept {
-  for (Child& child : children_) {
-    if (child.index == module) {
-      return &child;
-    }
-  }
-  return nullptr;
+  return const_cast<Child*>(std::as_const(*this).find(module));
 }
 
 void Processes::ask_to_end(Child& child) {
@@ -311,6 +314,40 @@ bool Processes::start(std::uint32_t module) {
   child->stopping = false;
   child->restarts.clear();
   return launch(*child);
+}
+
+pid_t Processes::pid(std::uint32_t module) const noexcept {
+  const Child* const child = find(module);
+  return child == nullptr ? -1 : child->pid;
+}
+
+std::filesystem::path Processes::file(std::uint32_t module) const {
+  const Child* const child = find(module);
+  return child == nullptr ? std::filesystem::path() : child->file;
+}
+
+Result<pid_t> Processes::launch_next_to(std::uint32_t module, const std::filesystem::path& file) const {
+  const Child& child = *find(module);
+  return node::launch({file.string(), child.module->arguments, node_, std::to_string(module), child.module->core});
+}
+
+void Processes::hold(std::uint32_t module, bool is_held) noexcept {
+  if (Child* const child = find(module); child != nullptr) {
+    child->held = is_held;
+  }
+}
+
+void Processes::replace(std::uint32_t module, pid_t pid, const std::filesystem::path& file) {
+  Child& child = *find(module);
+  child.pid = pid;
+  child.file = file;
+  child.digest.clear();
+  (void)is_sound(child);  // this file is the one that may be started again
+  child.killed_for_budget = false;
+  child.killed_hanging = false;
+  child.launched = rt::MonoClock::now();
+  record(child).pid.store(pid, std::memory_order_release);
+  record(child).state.store(ModuleState::Running, std::memory_order_release);
 }
 
 void Processes::end_all() {

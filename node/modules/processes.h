@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@
 #include "store/tape/tape.h"
 
 namespace indurop::node {
+
+// "exited with code 1", of a status of waitpid().
+std::string describe_end(int status);
 
 class Processes {
  public:
@@ -44,6 +48,15 @@ class Processes {
   void stop(std::uint32_t module, rt::MonoTime now);
   [[nodiscard]] bool has_ended(std::uint32_t module) const noexcept;
   bool start(std::uint32_t module);
+  // For an exchange of a process. The one that runs now, -1: it has died; and its program.
+  [[nodiscard]] pid_t pid(std::uint32_t module) const noexcept;
+  [[nodiscard]] std::filesystem::path file(std::uint32_t module) const;
+  // Launches another process of the module next to it, which is not supervised. Errors: System.
+  Result<pid_t> launch_next_to(std::uint32_t module, const std::filesystem::path& file) const;
+  // While it is held, a module is not restarted when its process dies.
+  void hold(std::uint32_t module, bool is_held) noexcept;
+  // This process runs from now on, and is restarted with this file. The one before is not supervised any more.
+  void replace(std::uint32_t module, pid_t pid, const std::filesystem::path& file);
   // Kills a process that does not return in a simulation, where it has unlimited time.
   void kill_hanging(std::uint32_t module);
   // Requests all to end, waits, kills those still running.
@@ -53,6 +66,7 @@ class Processes {
   struct Child {
     std::uint32_t index;
     const config::Module* module;
+    std::filesystem::path file;
     std::string digest = {};  // of its file when the node started; only for deployed files
     pid_t pid = -1;
     rt::MonoTime restart_at{};
@@ -62,9 +76,11 @@ class Processes {
     bool warned = false;  // already warned that it does not expect its signal
     rt::MonoTime launched{};
     bool stopping = false;  // by command
+    bool held = false;      // not restarted
     rt::MonoTime asked{};
   };
   Child* find(std::uint32_t module) noexcept;
+  [[nodiscard]] const Child* find(std::uint32_t module) const noexcept;
   void ask_to_end(Child& child);
   void kill_if_late(Child& child, rt::MonoTime now);
   [[nodiscard]] bool managed(const Child& child) const noexcept;

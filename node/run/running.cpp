@@ -53,13 +53,14 @@ Running::Running(const Options& options, Console& console, base::StopSignal& sig
       normal_threads_(checked.config, run_, loaded.libraries, plain_hooks(), kernel_),
       processes_(checked.config, run_, options.node, prepared.rights.realtime(), console, *prepared.failsafe,
                  prepared.tape.get()),
-      commands_(
-          ModuleCommands::Parts{options, checked.config, run_, loaded.libraries, engine_, processes_, normal_threads_,
-                                phases_, *prepared.failsafe, console, prepared.tape.get(),
-                                placement(options, prepared.rights), checked.routes, mirror_},
-          Exchanges::Parts{options.node, checked.config, run_, loaded.libraries, engine_, *prepared.store, console,
-                           options.simulation.on, !checked.mirror, checked.external.is_wanted(), prepared.tape.get()},
-          checked.check, Phases(checked.config, run_, loaded.libraries, console, signals, apart_hooks(), kernel_)) {}
+      commands_(ModuleCommands::Parts{options, checked.config, run_, loaded.libraries, engine_, processes_,
+                                      normal_threads_, phases_, *prepared.failsafe, console, prepared.tape.get(),
+                                      placement(options, prepared.rights), checked.routes, mirror_},
+                Exchanges::Parts{options.node, checked.config, run_, loaded.libraries, engine_, *prepared.store,
+                                 console, processes_, options.simulation.on, !checked.mirror,
+                                 checked.external.is_wanted(), prepared.tape.get()},
+                checked.check,
+                Phases(checked.config, run_, loaded.libraries, console, signals, apart_hooks(), kernel_)) {}
 
 scheduler::Kernel& Running::make_kernel() {
   if (!options_.simulation.on) {

@@ -30,7 +30,6 @@ using scheduler::ModuleType;
 using scheduler::NodeState;
 using scheduler::RunBlock;
 
-constexpr std::int64_t kIdleNs = 100'000'000;  // interval at which a waiting process checks its node
 constexpr unsigned kIdlesPerFullCheck = 10;
 
 // The memory of this process's node was lost; the process ends too. Called in a signal handler.
@@ -147,7 +146,10 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
   ModuleRecord& record = run.modules()[index];
   auto& slot = run.process_slots()[index];
   const std::int32_t launched = record.pid.load(std::memory_order_acquire);
-  const bool is_launched = launched == pid_ || (launched > 0 && launched == ::getppid());
+  const std::int32_t successor = slot.successor.load(std::memory_order_acquire);
+  const auto is_this = [this](std::int32_t pid) { return pid > 0 && (pid == pid_ || pid == ::getppid()); };
+  const bool follows = is_this(successor);
+  const bool is_launched = follows || is_this(launched);
   const std::int32_t holder = slot.pid.load(std::memory_order_acquire);
   if (!is_launched) {
     const bool theirs = again == Again::Yes && launched > 0 && process_exists(launched);
@@ -158,26 +160,23 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
   }
   hot.process_module.store(index, std::memory_order_relaxed);
   if (run.virtual_ns.load(std::memory_order_relaxed) == 0) {
-    take_rights(record);
+    if (!follows) {
+      take_priority(record);  // a successor prepares itself without it, so that it delays nothing that runs
+    }
+    lock_memory(record);
   }
   mapping_ = &mapping;
   slot_ = &slot;
-  set_current_track(nullptr);
-  kept_.reset();
-  tape_.reset();
-  if (const Attachment* attachment = hot.attachment.load(std::memory_order_acquire)) {
-    if (auto member = tape::Member::open(node_, index, attachment->store())) {
-      tape_ = std::move(member).value();
-    }
-  }
   replay_input_.reset();
   if (auto replay_input = tape::ReplayInputReader::open(node_, run.node_pid.load(std::memory_order_relaxed))) {
     replay_input_ = std::move(replay_input).value();
   }
-  kept_ = KeptThread::begin(node_, index, run, tape_ ? &tape_->track() : nullptr);
   holder_ = holder;
-  enrolled_as_ = is_launched ? launched : pid_;  // a script may run between the node and this program
-  phase_ = Phase::Prepared;
+  enrolled_as_ = follows ? successor : is_launched ? launched : pid_;  // a script may run between the node and it
+  phase_ = follows ? Phase::Turn : Phase::Prepared;
+  if (!follows) {
+    open_records();
+  }
   (void)Process::get().servers().start(record.fifo_priority, record.core);
   return {};
 }
@@ -186,6 +185,7 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
 void Enrolment::publish() {
   // Discards releases that an earlier process of this module left unfinished.
   seen_ = slot_->released.load(std::memory_order_acquire);
+  slot_->taken.store(seen_, std::memory_order_relaxed);
   slot_->done.store(seen_, std::memory_order_release);
   slot_->obtained_fifo.store(rt::fifo_priority(), std::memory_order_relaxed);
   running_ = false;
@@ -199,15 +199,18 @@ void Enrolment::publish() {
   }
 }
 
-void Enrolment::take_rights(const ModuleRecord& record) {
+void Enrolment::take_priority(const ModuleRecord& record) {
   if (record.core >= 0) {
     (void)rt::pin_to_core(record.core);
   }
-  if (record.fifo_priority > 0 && rt::set_fifo(record.fifo_priority) && may_lock_everything()) {
-    (void)rt::lock_memory();
-  }
-  if (rt::fifo_priority() == 0) {
+  if (record.fifo_priority == 0 || !rt::set_fifo(record.fifo_priority)) {
     rt::request_exact_timers();
+  }
+}
+
+void Enrolment::lock_memory(const ModuleRecord& record) {
+  if (record.fifo_priority > 0 && may_lock_everything()) {
+    (void)rt::lock_memory();
   }
 }
 
@@ -230,9 +233,14 @@ void Enrolment::finish_run() noexcept {
 }
 
 bool Enrolment::take_release() noexcept {
-  if (slot_->released.load(std::memory_order_acquire) <= seen_) {
+  if (slot_->released.load(std::memory_order_acquire) <= seen_ ||
+      slot_->pid.load(std::memory_order_seq_cst) != enrolled_as_) {
     return false;
   }
+  if (!slot_->taken.compare_exchange_strong(seen_, seen_ + 1, std::memory_order_seq_cst)) {
+    return false;  // the process that was followed has taken it
+  }
+  slot_->runner.store(enrolled_as_, std::memory_order_release);
   if (kept_) {
     kept_->enter();
   }
@@ -281,6 +289,10 @@ bool Enrolment::wait() {
     }
     if (slot_->stop.load(std::memory_order_acquire) != 0) {
       end_wanted_ = true;
+    } else if (phase_ == Phase::Turn) {
+      wait_for_turn();
+    } else if (slot_->pid.load(std::memory_order_acquire) != enrolled_as_) {
+      give_way();
     } else if (take_release()) {
       (void)slot_->wake.try_wait();  // this release's own wake-up, if it did not wake this process
       Process::get().refresh();
@@ -299,11 +311,6 @@ bool Enrolment::wait() {
 void Enrolment::check_node() {
   ++idle_;
   Process::get().refresh();
-  if (slot_->pid.load(std::memory_order_acquire) != enrolled_as_) {
-    std::fprintf(stderr, "indurop: node '%s' has another process for this module; this one ends\n", node_.c_str());
-    end_wanted_ = true;
-    return;
-  }
   const std::int32_t node_pid = mapping_->block().node_pid.load(std::memory_order_acquire);
   const bool alive = idle_ % kIdlesPerFullCheck == 0 ? mapping_->node_alive() : process_exists(node_pid);
   if (!alive) {

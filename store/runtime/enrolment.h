@@ -41,10 +41,13 @@ class Enrolment {
     None,      // initPeriodExe() not called
     NoNode,    // called, but there is no node to enrol with
     Prepared,  // this process's slot is known
+    Turn,      // another process of this module runs; this one waits until it may follow it
     Enrolled,  // and the node releases it
     Ending,    // waitPeriod() has returned false
   };
   enum class Again { No, Yes };
+
+  static constexpr std::int64_t kIdleNs = 100'000'000;  // interval at which a waiting process checks its node
 
   // The message of a rejected enrolment: the reason, and what to do.
   struct Outcome {
@@ -54,7 +57,12 @@ class Enrolment {
   Outcome enrol(Again again);
   Outcome take_slot(RunMapping& mapping, Again again);
   void publish();
-  void take_rights(const scheduler::ModuleRecord& record);
+  void follow();
+  void wait_for_turn();
+  void give_way();
+  void open_records();
+  static void take_priority(const scheduler::ModuleRecord& record);
+  static void lock_memory(const scheduler::ModuleRecord& record);
   void finish_run() noexcept;
   bool take_release() noexcept;
   void check_node();

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/rt/clock.h"
+#include "core/rt/guard.h"
 #include "store/runtime/process.h"
 #include "store/tape/state_copy.h"
 

@@ -278,8 +278,7 @@ TEST_F(Reload, Sporadic_modules_are_exchanged_and_others_say_why_not) {
                   {.file = "process.exe",
                    .name = "process",
                    .type = "process",
-                   .period = "2ms",
-                   .priority = 4,
+                   .operation = "non-real",
                    .more = "<argument>count</argument>"}});
   ASSERT_TRUE(runs_reach("event", 5));
   const std::string copy = folder() / "event.so";

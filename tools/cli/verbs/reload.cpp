@@ -71,6 +71,9 @@ void print_plan(Context& context, const operate::ReloadPlan& plan) {
 void print_exchange(Context& context, const operate::ReloadReport& report) {
   context.out.line(fmt::format("  version {} runs since tick {}; {} ticks without new values", report.version,
                                report.tick, report.left_out));
+  if (report.response_ns == 0) {
+    return;  // a process
+  }
   context.out.line(fmt::format("  {} bytes copied in {}; its first run ended {} after its release", report.plan.bytes,
                                human_ns(report.copying_ns), human_ns(report.response_ns)));
 }
@@ -312,7 +315,7 @@ const Verb kReloadVerb{
     "The new version is checked, loaded and started next to the running one. It replaces the running version\n"
     "between two runs and continues with what the module keeps (INDUROP_STATE; automatic for PLC programs); no\n"
     "run is skipped. If it then faults, overruns or violates the guard within the health window, the previous\n"
-    "version runs again in the next tick.\n"
+    "version runs again in the next tick. A process is followed by another one, which begins with initial values.\n"
     "With --config, the schedule of the whole node changes: the verb reports what happens to each module, modules\n"
     "that stay lose no tick, and a change that requires a restart is rejected.\n"
     "With --shadow, the new version first repeats the runs of the running one, in another process and with the\n"

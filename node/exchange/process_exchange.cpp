@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/exchange/process_exchange.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+#include "core/keys/digest.h"
+#include "core/rt/clock.h"
+#include "core/rt/copy_text.h"
+#include "node/exchange/version_text.h"
+#include "store/operate/journal.h"
+#include "store/tape/process_keyframes.h"
+
+namespace indurop::node {
+namespace {
+
+using scheduler::CommandResult;
+using scheduler::Exchange;
+using scheduler::ModuleState;
+using scheduler::VersionState;
+
+constexpr std::chrono::seconds kStartLimit{10};  // until the new process calls irp::waitPeriod()
+constexpr std::chrono::seconds kFollowLimit{5};  // in addition to two periods
+constexpr std::chrono::milliseconds kAsked{500};
+constexpr std::chrono::seconds kGrace{2};
+constexpr std::chrono::milliseconds kPoll{1};
+
+std::string digest_of_process(pid_t pid) {
+  const auto found = keys::digest_of_file(fmt::format("/proc/{}/exe", pid));
+  return found ? found->digest : std::string();
+}
+
+}  // namespace
+
+ProcessExchange::ProcessExchange(ExchangeContext& context, std::uint32_t module)
+    : context_(context), processes_(context.parts.processes), module_(module) {}
+
+void ProcessExchange::begin(const operate::ReloadRequest& request) {
+  request_ = request;
+  report_.module = record().name;
+  digest_ = digest_of_process(processes_.pid(module_));
+  report_.from = digest_;
+  if (!request_.guard.empty()) {
+    auto guard = GuardCondition::parse(request_.guard, context_.parts.store);
+    if (!guard) {
+      answer(CommandResult::Refused, guard.error().text);
+      step_ = Step::Over;
+      return;
+    }
+    guard_ = std::move(guard).value();
+  }
+  other_.file = request_.file.empty() ? context_.files[module_] : std::filesystem::path(request_.file);
+  preparation_ =
+      std::make_unique<CandidateThread>(CandidateTask{context_.parts.config, module_, other_.file, context_.parts.store,
+                                                      context_.allowed[module_], context_.parts.libraries[module_]});
+}
+
+void ProcessExchange::go_on(rt::MonoTime now) {
+  switch (step_) {
+    case Step::Preparing:
+      return preparation_->is_done() ? prepared() : void();
+    case Step::Starting:
+      return await_ready(now);
+    case Step::Ready:
+      return let_follow(now);
+    case Step::Following:
+      return await_follow(now);
+    case Step::Watched:
+      return check_health(now);
+    case Step::Returning:
+      return await_return(now);
+    case Step::Ending:
+      return await_end(now);
+    case Step::Over:
+      return;
+  }
+}
+
+void ProcessExchange::prepared() {
+  const Candidate candidate = preparation_->take();
+  preparation_.reset();
+  if (is_wanted(candidate)) {
+    launch();
+  } else {
+    step_ = Step::Over;
+  }
+}
+
+bool ProcessExchange::is_wanted(const Candidate& candidate) {
+  const auto& run = context_.parts.run;
+  const bool keeps = tape::ProcessKeyframes::open(context_.parts.node, module_, run.node_pid.load()).ok();
+  report_.errors = candidate.errors;
+  report_.needs_restart = candidate.needs_restart;
+  report_.plan.why_not = "a process begins with its initial values";
+  report_.to = candidate.digest;
+  if (!report_.errors.empty()) {
+    answer(CommandResult::Refused, count_errors(report_));
+  } else if (report_.from == report_.to) {
+    answer(CommandResult::Unchanged, "this version runs already");
+  } else if (record().state.load() != ModuleState::Running) {
+    answer(CommandResult::Refused, "its process does not run, so no other one can follow it");
+  } else if (keeps && !request_.lossy) {
+    answer(CommandResult::Refused, "what its process keeps would be lost; --lossy exchanges it nevertheless");
+  } else if (request_.dry_run) {
+    answer(CommandResult::Done, "would be exchanged, with initial values");
+  } else {
+    return true;
+  }
+  return false;
+}
+
+void ProcessExchange::launch() {
+  const auto launched = processes_.launch_next_to(module_, other_.file);
+  if (!launched) {
+    answer(CommandResult::Failed, fmt::format("cannot be started: {}", std::strerror(launched.error().sys_errno)));
+    step_ = Step::Over;
+    return;
+  }
+  other_.pid = launched.value();
+  other_.digest = report_.to;
+  slot().ready.store(0);
+  slot().successor.store(other_.pid, std::memory_order_release);
+  deadline_ = rt::MonoClock::now() + kStartLimit;
+  step_ = Step::Starting;
+}
+
+bool ProcessExchange::has_ended(Other& other) const {
+  if (other.pid > 0 && ::waitpid(other.pid, &other.status, WNOHANG) == other.pid) {
+    other.pid = -1;
+  }
+  return other.pid <= 0;
+}
+
+void ProcessExchange::await_ready(rt::MonoTime now) {
+  if (has_ended(other_)) {
+    abort(describe_end(other_.status) + " before it called irp::waitPeriod()", now);
+  } else if (record().state.load() != ModuleState::Running) {
+    abort("the process that runs has faulted or was stopped meanwhile", now);
+  } else if (slot().ready.load(std::memory_order_acquire) == other_.pid) {
+    follow_in_ = next_macro_period(context_);
+    step_ = Step::Ready;
+  } else if (now > deadline_) {
+    abort(fmt::format("it has not called irp::waitPeriod() within {} s", kStartLimit.count()), now);
+  }
+}
+
+void ProcessExchange::let_follow(rt::MonoTime now) {
+  if (has_ended(other_)) {
+    abort(describe_end(other_.status), now);
+  } else if (record().state.load() != ModuleState::Running) {
+    abort("the process that runs has faulted or was stopped meanwhile", now);
+  } else if (context_.parts.run.tick.load() >= follow_in_) {
+    skipped_before_ = record().skipped.load();
+    overruns_before_ = record().overruns.load();
+    deadline_ = now + kFollowLimit + 2 * std::chrono::nanoseconds(record().period_ns);
+    processes_.hold(module_, true);
+    slot().previous.store(processes_.pid(module_), std::memory_order_release);
+    slot().may_follow.store(other_.pid, std::memory_order_release);
+    slot().turn.wake();
+    step_ = Step::Following;
+  }
+}
+
+void ProcessExchange::await_follow(rt::MonoTime now) {
+  const pid_t former = processes_.pid(module_);
+  if (slot().followed.load(std::memory_order_acquire) == other_.pid) {
+    note_exchanged(now);
+  } else if (has_ended(other_) || now > deadline_) {
+    // It may have taken the place already, and not more.
+    slot().may_follow.store(former);
+    slot().turn.wake();
+    abort(other_.pid > 0 ? "the run of the process before it does not end" : describe_end(other_.status), now);
+  }
+}
+
+void ProcessExchange::swap() {
+  const pid_t former = processes_.pid(module_);
+  const std::filesystem::path file = processes_.file(module_);
+  processes_.replace(module_, other_.pid, other_.file);
+  other_ = {former, 0, file, std::exchange(digest_, other_.digest)};
+}
+
+void ProcessExchange::note_exchanged(rt::MonoTime now) {
+  swap();
+  slot().successor.store(0);
+  report_.tick = slot().follow_tick.load() + 1;
+  report_.left_out = record().skipped.load() - skipped_before_;
+  set_version(request_.health_ns > 0 ? VersionState::Watched : VersionState::Settled);
+  context_.parts.console.info("module {}: version {} ({}) is process {}, since tick {}: {} runs left out",
+                              record().name, record().version.load(), short_digest(digest_), processes_.pid(module_),
+                              report_.tick, report_.left_out);
+  answer(CommandResult::Done, "exchanged, with initial values");
+  deadline_ = now + std::chrono::nanoseconds(request_.health_ns);
+  step_ = Step::Watched;
+}
+
+void ProcessExchange::check_health(rt::MonoTime now) {
+  const ModuleState state = record().state.load();
+  if (has_ended(other_) || state == ModuleState::Stopped) {
+    record().version_state.store(VersionState::Settled);
+    leave(now);
+  } else if (state != ModuleState::Running) {
+    go_back(Exchange::Reason::Fault, now);
+  } else if (guard_ && !guard_->holds(context_.parts.store)) {
+    go_back(Exchange::Reason::Guard, now);
+  } else if (record().overruns.load() > overruns_before_ && request_.health_ns > 0) {
+    go_back(Exchange::Reason::Overrun, now);
+  } else if (now >= deadline_) {
+    record().version_state.store(VersionState::Settled);
+    leave(now);
+  }
+}
+
+void ProcessExchange::go_back() {
+  answered_ = false;
+  go_back(Exchange::Reason::Command, rt::MonoClock::now());
+}
+
+void ProcessExchange::go_back(Exchange::Reason reason, rt::MonoTime now) {
+  reason_ = reason;
+  deadline_ = now + kFollowLimit;
+  skipped_before_ = record().skipped.load();
+  slot().successor.store(other_.pid);  // first, because it waits as the previous one until then
+  slot().previous.store(std::max(processes_.pid(module_), 0));
+  slot().may_follow.store(other_.pid);
+  slot().turn.wake();
+  step_ = Step::Returning;
+}
+
+void ProcessExchange::await_return(rt::MonoTime now) {
+  if (slot().followed.load(std::memory_order_acquire) == other_.pid) {
+    swap();
+    report_.tick = slot().follow_tick.load() + 1;
+    report_.left_out = record().skipped.load() - skipped_before_;
+    report_return();
+    leave(now);
+  } else if (has_ended(other_) || now > deadline_) {
+    const std::string why = other_.pid > 0 ? "it does not follow" : describe_end(other_.status);
+    context_.parts.console.warning("module {}: the previous process cannot run again: {}", record().name, why);
+    answer(CommandResult::Failed, "the previous process cannot run again: " + why);
+    record().version_state.store(VersionState::Settled);
+    leave(now);
+  }
+}
+
+// The report comes first: a client that sees the version's state reads it.
+void ProcessExchange::report_return() {
+  const std::string why = text_of(reason_, record());
+  report_.text = "the previous version runs again: " + why;
+  report_.version = record().version.load() + 1;
+  (void)operate::write_report(context_.parts.node, report_);
+  if (reason_ != Exchange::Reason::Command) {  // that one is noted by its client
+    operate::note(context_.parts.node, {rt::to_ns(context_.parts.store.now()), 0, "the node", "", "reload --back",
+                                        record().name, "sha256:" + digest_, 0, why});
+  }
+  set_version(VersionState::Returned);
+  context_.parts.console.warning("module {}: version {} ({}), the previous one, is process {} again since tick {}: {}",
+                                 record().name, record().version.load(), short_digest(digest_), processes_.pid(module_),
+                                 report_.tick, why);
+  answer(CommandResult::Done, report_.text);
+}
+
+void ProcessExchange::leave(rt::MonoTime now) {
+  slot().successor.store(0);
+  slot().previous.store(0);
+  slot().turn.wake();
+  processes_.hold(module_, false);
+  deadline_ = now + kGrace;
+  was_asked_ = false;
+  step_ = Step::Ending;
+}
+
+void ProcessExchange::await_end(rt::MonoTime now) {
+  if (has_ended(other_)) {
+    step_ = Step::Over;
+  } else if (now > deadline_) {
+    context_.parts.console.warning("module {}: process {} did not end within {} s and was killed", record().name,
+                                   other_.pid, kGrace.count());
+    ::kill(other_.pid, SIGKILL);
+    deadline_ = rt::MonoTime::max();
+  } else if (now > deadline_ - kGrace + kAsked && !std::exchange(was_asked_, true)) {
+    ::kill(other_.pid, SIGTERM);  // it does not wait for its turn
+  }
+}
+
+void ProcessExchange::abort(const std::string& why, rt::MonoTime now) {
+  answer(CommandResult::Failed, why);
+  leave(now);
+}
+
+void ProcessExchange::answer(CommandResult result, const std::string& text) {
+  if (std::exchange(answered_, true)) {
+    return;
+  }
+  report_.text = text;
+  report_.version = record().version.load();
+  (void)operate::write_report(context_.parts.node, report_);
+  scheduler::answer_command(record(), result);
+  if (result == CommandResult::Refused || result == CommandResult::Failed) {
+    context_.parts.console.warning("module {}: not exchanged: {}", record().name, text);
+  }
+}
+
+void ProcessExchange::set_version(VersionState state) {
+  scheduler::ModuleRecord& module = record();
+  const std::uint64_t before = std::max<std::uint64_t>(module.version.load(), 1);
+  rt::copy_text(module.digests[before % 2], other_.digest);
+  rt::copy_text(module.digests[(before + 1) % 2], digest_);
+  module.version_tick.store(report_.tick);
+  module.version_state.store(state);
+  module.version.store(before + 1, std::memory_order_release);
+}
+
+void ProcessExchange::end() {
+  if (preparation_ != nullptr) {
+    (void)preparation_->take();
+  }
+  answer(CommandResult::Ending, "the node ends");
+  if (step_ == Step::Over || other_.pid <= 0) {
+    step_ = Step::Over;
+    return;
+  }
+  leave(rt::MonoClock::now());
+  while (step_ != Step::Over) {
+    await_end(rt::MonoClock::now());
+    rt::sleep_until(rt::MonoClock::now() + kPoll);
+  }
+}
+
+}  // namespace indurop::node

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Process modules that are exchanged while the node runs: another process follows between two runs, each release is
+// taken by one of them, and the previous one returns if the new one fails.
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "reload_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using scheduler::ModuleState;
+using scheduler::VersionState;
+
+class ReloadProcess : public Reload {
+ protected:
+  static Module process(const std::string& file = "process.exe", const std::string& argument = "count") {
+    return {.file = file,
+            .name = "process",
+            .type = "process",
+            .period = "2ms",
+            .priority = 4,
+            .more = "<restart max=\"0\"/>" + (argument.empty() ? "" : "<argument>" + argument + "</argument>")};
+  }
+  // Another version: the program does the same, its file has another digest.
+  std::string version(int number, const std::string& of = "process.exe") const {
+    const std::string copy = folder().string() + "/version" + std::to_string(number) + ".exe";
+    std::filesystem::copy_file(std::filesystem::path(MODULE_DIR) / of, copy);
+    std::ofstream(copy, std::ios::app) << number;
+    return copy;
+  }
+  pid_t pid() { return module("process").pid.load(); }
+  bool runs_more() { return runs_reach("process", module("process").runs.load() + 20); }
+  static bool is_there(pid_t pid) { return ::kill(pid, 0) == 0; }
+  // Every run that the node counts was executed by one process, and none twice.
+  void expect_each_run_once() {
+    const auto& record = module("process");
+    EXPECT_TRUE(wait_until([&] {
+      const std::uint64_t before = record.runs.load();
+      const std::uint64_t executed = value<std::uint32_t>("nt::process_runs");
+      return executed == before + 1 || executed == before;  // the node counts a run at the release after it
+    })) << value<std::uint32_t>("nt::process_runs")
+        << " of " << record.runs.load();
+  }
+};
+
+TEST_F(ReloadProcess, Another_process_follows_and_each_run_is_executed_once) {
+  constexpr int kTimes = 20;
+  Program& sut = start_and_wait({process()});
+  ASSERT_TRUE(runs_reach("process", 20));
+  for (int i = 0; i < kTimes; ++i) {
+    const pid_t before = pid();
+    const Outcome done = reload({"process", version(i), "--health", "0s"});
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_CONTAINS(done.out, "version " + std::to_string(i + 2) + " runs since tick");
+    EXPECT_NE(pid(), before);
+    EXPECT_TRUE(runs_more());
+    EXPECT_TRUE(wait_until([before] { return !is_there(before); }));
+  }
+  expect_each_run_once();
+  EXPECT_EQ(module("process").faults.load(), 0U);
+  EXPECT_EQ(module("process").version.load(), std::uint64_t{kTimes + 1});
+  EXPECT_EQ(indurop({"status", "--node", node(), "-o", "json"}).json()["modules"][0]["version"], kTimes + 1);
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0) << sut.err();
+}
+
+TEST_F(ReloadProcess, The_previous_process_returns_by_command_and_after_a_fault) {
+  start_and_wait({process()});
+  ASSERT_TRUE(runs_reach("process", 20));
+  const pid_t first = pid();
+  for (const bool by_command : {true, false}) {
+    Program client(
+        {INDUROP_PROGRAM, "reload", "process", version(by_command ? 1 : 2), "--health", "60s", "--node", node()},
+        environment());
+    ASSERT_TRUE(wait_until([&] { return module("process").version_state.load() == VersionState::Watched; }));
+    const pid_t second = pid();
+    EXPECT_NE(second, first);
+    EXPECT_TRUE(is_there(first));
+    EXPECT_TRUE(runs_more());
+    if (by_command) {
+      const Outcome back = reload({"process", "--back"});
+      EXPECT_EQ(back.code, 0) << back.err;
+    } else {
+      ASSERT_EQ(::kill(second, SIGKILL), 0);
+    }
+    EXPECT_EQ(client.wait(), 5) << client.err();
+    EXPECT_CONTAINS(client.err(), by_command ? "by command" : "the new one faulted");
+    EXPECT_EQ(pid(), first);
+    EXPECT_EQ(module("process").faults.load(), by_command ? 0U : 1U);
+    EXPECT_EQ(module("process").state.load(), ModuleState::Running);
+    EXPECT_TRUE(runs_more());
+    EXPECT_TRUE(wait_until([second] { return !is_there(second); }));
+  }
+  EXPECT_EQ(module("process").restarts.load(), 0U);
+}
+
+TEST_F(ReloadProcess, A_new_process_that_cannot_run_changes_nothing) {
+  Program& sut = start_and_wait({process("rambler_process.exe", "")});
+  ASSERT_TRUE(runs_reach("process", 20));
+  const pid_t before = pid();
+  EXPECT_CONTAINS(reload({"process", version(1, "rambler_process.exe")}).err, "--lossy exchanges it nevertheless");
+  EXPECT_CONTAINS(reload({"process", folder().string() + "/missing.exe"}).err, "missing.exe");
+  EXPECT_CONTAINS(reload({"process", "/bin/true", "--lossy"}).err,
+                  "exited with code 0 before it called irp::waitPeriod()");
+  EXPECT_EQ(pid(), before);
+  EXPECT_TRUE(runs_more());
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0) << sut.err();
+}
+
+TEST_F(ReloadProcess, A_node_that_ends_in_the_health_window_ends_both_processes) {
+  Program& sut = start_and_wait({process()});
+  ASSERT_TRUE(runs_reach("process", 20));
+  const pid_t first = pid();
+  Program client({INDUROP_PROGRAM, "reload", "process", version(1), "--health", "60s", "--node", node()},
+                 environment());
+  ASSERT_TRUE(wait_until([&] { return module("process").version_state.load() == VersionState::Watched; }));
+  const pid_t second = pid();
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0) << sut.err();
+  EXPECT_FALSE(is_there(first));
+  EXPECT_FALSE(is_there(second));
+  (void)client.wait();
+}
+
+}  // namespace
+}  // namespace indurop::test
