@@ -62,9 +62,10 @@ class PlatformTest : public AgentsTest {
     auto all = platform(before);
     return all.contains(board("a")) && all.contains(board("b")) && so(all[board("a")], all[board("b")]);
   }
-  bool in_phase(const std::string& name, const std::string& phase) {
+  // A board that is not heard for a moment is in no phase.
+  bool in_phase(const std::string& name, const std::string& phase, const std::vector<std::string>& before = {}) {
     return wait_until([&] {
-      const Json one = platform()[board(name)];
+      const Json one = platform(before)[board(name)];
       return one.is_object() && one.value("phase", "") == phase;
     });
   }

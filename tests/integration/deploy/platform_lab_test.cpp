@@ -41,7 +41,7 @@ TEST_F(PlatformNetwork, Boards_are_updated_and_a_pulled_cable_takes_all_back) {
   ASSERT_EQ(done.code, 0) << done.err;
   ASSERT_TRUE(both_run("9.1", on("desk")));
   Program& desk = start_update(packed("9.2"), {"--health", "60s"}, on("desk"));
-  ASSERT_TRUE(wait_until([&] { return platform(on("desk"))[board("b")].value("phase", "") == "trial"; }));
+  ASSERT_TRUE(in_phase("b", "trial", on("desk")));
   ASSERT_EQ(lab("unplug b"), 0);
   EXPECT_EQ(desk.finish().code, 5) << "b is lost";
   ASSERT_EQ(lab("plug b"), 0);
