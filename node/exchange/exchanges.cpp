@@ -55,11 +55,11 @@ bool Exchanges::is_open(std::uint32_t module) const noexcept {
 }
 
 std::string Exchanges::exchanged_module() const {
-  return single_ || process_ ? record(module_).name : "";
+  return is_under_way() ? record(module_).name : "";
 }
 
 std::string Exchanges::activity() const {
-  return single_ || process_   ? fmt::format("module {} is being exchanged", exchanged_module())
+  return is_under_way()        ? fmt::format("module {} is being exchanged", exchanged_module())
          : set_.is_under_way() ? "a deployment exchanges modules"
                                : "";
 }
@@ -110,7 +110,7 @@ void Exchanges::accept(std::uint32_t module, ModuleCommand command) {
   }
   const auto request = operate::take_reload_request(context_.parts.node);
   const config::Module& configured = context_.parts.config.modules[module];
-  if (single_ || process_) {
+  if (is_under_way()) {
     answer(module, CommandResult::Refused,
            fmt::format("module {} is being exchanged; repeat the command when its health window is over",
                        exchanged_module()));
@@ -147,7 +147,7 @@ void Exchanges::accept_back(std::uint32_t module) {
     single_->go_back();
   } else if (process_ && module_ == module && process_->is_watched()) {
     process_->go_back();
-  } else if (single_ || process_) {
+  } else if (is_under_way()) {
     answer(module, CommandResult::Refused,
            fmt::format("module {} is being exchanged; repeat the command when that is over", exchanged_module()));
   } else if (!context_.previous.contains(module)) {

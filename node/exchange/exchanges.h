@@ -43,6 +43,8 @@ class Exchanges {
   void accept(std::uint32_t module, scheduler::ModuleCommand command);
   void accept_back(std::uint32_t module);
   void go_on(rt::MonoTime now);
+  // Returns true while a module is exchanged alone.
+  [[nodiscard]] bool is_under_way() const noexcept { return single_ || process_; }
   // Returns the module that is being exchanged; empty: none.
   [[nodiscard]] std::string exchanged_module() const;
   void answer(std::uint32_t module, scheduler::CommandResult result, const std::string& text);

@@ -181,7 +181,7 @@ void ProcessExchange::await_follow(rt::MonoTime now) {
 void ProcessExchange::swap() {
   const pid_t former = processes_.pid(module_);
   const std::filesystem::path file = processes_.file(module_);
-  processes_.replace(module_, other_.pid, other_.file);
+  processes_.replace(module_, other_.pid, other_.file, other_.digest);
   other_ = {former, 0, file, std::exchange(digest_, other_.digest)};
 }
 

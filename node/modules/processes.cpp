@@ -337,12 +337,11 @@ void Processes::hold(std::uint32_t module, bool is_held) noexcept {
   }
 }
 
-void Processes::replace(std::uint32_t module, pid_t pid, const std::filesystem::path& file) {
+void Processes::replace(std::uint32_t module, pid_t pid, const std::filesystem::path& file, const std::string& digest) {
   Child& child = *find(module);
   child.pid = pid;
   child.file = file;
-  child.digest.clear();
-  (void)is_sound(child);  // this file is the one that may be started again
+  child.digest = digest;
   child.killed_for_budget = false;
   child.killed_hanging = false;
   child.launched = rt::MonoClock::now();

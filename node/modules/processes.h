@@ -55,8 +55,9 @@ class Processes {
   Result<pid_t> launch_next_to(std::uint32_t module, const std::filesystem::path& file) const;
   // While it is held, a module is not restarted when its process dies.
   void hold(std::uint32_t module, bool is_held) noexcept;
-  // This process runs from now on, and is restarted with this file. The one before is not supervised any more.
-  void replace(std::uint32_t module, pid_t pid, const std::filesystem::path& file);
+  // This process runs from now on, and is restarted with this file as long as it has this digest. The one before is not
+  // supervised any more.
+  void replace(std::uint32_t module, pid_t pid, const std::filesystem::path& file, const std::string& digest);
   // Kills a process that does not return in a simulation, where it has unlimited time.
   void kill_hanging(std::uint32_t module);
   // Requests all to end, waits, kills those still running.
