@@ -199,18 +199,25 @@ void ProcessExchange::note_exchanged(rt::MonoTime now) {
   step_ = Step::Watched;
 }
 
+std::optional<Exchange::Reason> ProcessExchange::fault() const {
+  if (record().state.load() != ModuleState::Running) {
+    return Exchange::Reason::Fault;
+  }
+  if (guard_ && !guard_->holds(context_.parts.store)) {
+    return Exchange::Reason::Guard;
+  }
+  if (record().overruns.load() > overruns_before_ && request_.health_ns > 0) {
+    return Exchange::Reason::Overrun;
+  }
+  return std::nullopt;
+}
+
 void ProcessExchange::check_health(rt::MonoTime now) {
-  const ModuleState state = record().state.load();
-  if (has_ended(other_) || state == ModuleState::Stopped) {
-    record().version_state.store(VersionState::Settled);
-    leave(now);
-  } else if (state != ModuleState::Running) {
-    go_back(Exchange::Reason::Fault, now);
-  } else if (guard_ && !guard_->holds(context_.parts.store)) {
-    go_back(Exchange::Reason::Guard, now);
-  } else if (record().overruns.load() > overruns_before_ && request_.health_ns > 0) {
-    go_back(Exchange::Reason::Overrun, now);
-  } else if (now >= deadline_) {
+  const bool only_this_one = has_ended(other_) || record().state.load() == ModuleState::Stopped;
+  const auto reason = fault();
+  if (reason && !only_this_one) {
+    go_back(*reason, now);
+  } else if (only_this_one || now >= deadline_) {
     record().version_state.store(VersionState::Settled);
     leave(now);
   }

@@ -64,6 +64,8 @@ class ProcessExchange {
   void let_follow(rt::MonoTime now);
   void await_follow(rt::MonoTime now);
   void note_exchanged(rt::MonoTime now);
+  // Why the process that runs is not a good one.
+  [[nodiscard]] std::optional<scheduler::Exchange::Reason> fault() const;
   void check_health(rt::MonoTime now);
   void go_back(scheduler::Exchange::Reason reason, rt::MonoTime now);
   void await_return(rt::MonoTime now);

@@ -27,6 +27,14 @@ constexpr std::chrono::milliseconds kPoll{5};
 constexpr std::chrono::seconds kStartPatience{2};
 constexpr std::size_t kRestartsKept = 1000;
 
+// Of constant children, a constant one; null: the module has none.
+template <class Children>
+auto* find_in(Children& children, std::uint32_t module) noexcept {
+  const auto found =
+      std::find_if(children.begin(), children.end(), [module](const auto& child) { return child.index == module; });
+  return found == children.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::string describe_end(int status) {
@@ -262,13 +270,11 @@ void Processes::kill_hanging(std::uint32_t module) {
 }
 
 const Processes::Child* Processes::find(std::uint32_t module) const noexcept {
-  const auto found =
-      std::find_if(children_.begin(), children_.end(), [module](const Child& child) { return child.index == module; });
-  return found == children_.end() ? nullptr : &*found;
+  return find_in(children_, module);
 }
 
 Processes::Child* Processes::find(std::uint32_t module) noexcept {
-  return const_cast<Child*>(std::as_const(*this).find(module));
+  return find_in(children_, module);
 }
 
 void Processes::ask_to_end(Child& child) {
