@@ -201,9 +201,10 @@ Candidate make_candidate(const CandidateTask& task) {
   if (!candidate.errors.empty()) {
     return candidate;
   }
-  runtime::set_current_module(task.index);
-  const auto loaded = candidate.library.load(task.file, true);
-  runtime::set_current_module(runtime::kNoModule);
+  auto loaded = load_apart(task.file, task.index);
+  if (loaded) {
+    candidate.library = std::move(loaded).value();
+  }
   if (!loaded) {
     candidate.errors.push_back(fmt::format("{}: error: {}", task.file.string(), loaded.error().text));
   } else if (!before || before->digest != candidate.library.digest()) {

@@ -8,14 +8,18 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "core/rt/clock.h"
-#include "node/modules/module_library.h"
+#include "core/rt/thread.h"
 #include "node/modules/trampoline.h"
 #include "node/run/ending.h"
+#include "store/runtime/host.h"
 
 namespace indurop::node {
 namespace {
@@ -85,12 +89,30 @@ std::string try_module(const std::filesystem::path& file) {
                      kTrialLimit.count());
 }
 
+Result<ModuleLibrary, base::Problem> load_apart(const std::filesystem::path& file, std::uint32_t module) {
+  constexpr std::size_t kStack = std::size_t{8} * 1024 * 1024;
+  Result<ModuleLibrary, base::Problem> result = base::Problem{"no thread could be started to load it"};
+  auto thread = rt::Thread::start({"irp-load", 0, -1, kStack}, [&] {
+    ModuleLibrary library;
+    runtime::set_current_module(module);
+    const auto loaded = library.load(file, true);
+    runtime::set_current_module(runtime::kNoModule);
+    result = loaded ? Result<ModuleLibrary, base::Problem>(std::move(library)) : loaded.error();
+  });
+  if (thread) {
+    thread.value().join();
+  }
+  return result;
+}
+
 void load_on_trial(int argc, char** argv) {
   constexpr int kFile = 2;
   if (argc > kFile) {
-    ModuleLibrary library;
-    (void)library.load(argv[kFile], true);
-    (void)library.unload();  // a node does, too: when it rejects the version, and in the end
+    if (auto library = load_apart(argv[kFile], runtime::kNoModule)) {
+      std::vector<std::byte> state(library->memory().most());
+      (void)library->memory().save(state);  // reads what the module describes
+      (void)library->unload();              // a node does, too: when it rejects the version, and in the end
+    }
     std::_Exit(kWasLoaded);
   }
   std::_Exit(2);
