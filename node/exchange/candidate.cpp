@@ -169,6 +169,17 @@ void keep_files(const CandidateTask& task, Candidate& candidate) {
   }
 }
 
+void check_loaded(const CandidateTask& task, Candidate& candidate) {
+  const auto& module = task.config.modules[task.module];
+  if (candidate.digest.empty() || candidate.digest != candidate.library.digest()) {
+    candidate.errors.push_back(
+        fmt::format("{}: error: it was written while it was read; repeat the command", task.file.string()));
+  } else if (module.operation == scheduler::Operation::Sporadic && !candidate.library.functions().condition) {
+    candidate.errors.push_back(
+        fmt::format("{}: error: it has no condition(); a sporadic module needs one", task.file.string()));
+  }
+}
+
 }  // namespace
 
 ModuleLibrary::Uses uses_of(const config::ModuleFacts& facts) {
@@ -184,8 +195,9 @@ ModuleLibrary::Uses uses_of(const config::ModuleFacts& facts) {
 
 Candidate make_candidate(const CandidateTask& task) {
   Candidate candidate;
-  const auto before = keys::digest_of_file(task.file);
-  candidate.digest = before ? before->digest : std::string();
+  if (const auto digest = keys::digest_of_file(task.file)) {
+    candidate.digest = digest->digest;
+  }
   candidate.needs_restart = CandidateCheck(task, candidate).run();
   if (task.config.modules[task.module].type == scheduler::ModuleType::Process) {
     return candidate;
@@ -201,19 +213,11 @@ Candidate make_candidate(const CandidateTask& task) {
   if (!candidate.errors.empty()) {
     return candidate;
   }
-  auto loaded = load_apart(task.file, task.index);
-  if (loaded) {
-    candidate.library = std::move(loaded).value();
-  }
-  if (!loaded) {
+  if (auto loaded = load_apart(task.file, task.index); !loaded) {
     candidate.errors.push_back(fmt::format("{}: error: {}", task.file.string(), loaded.error().text));
-  } else if (!before || before->digest != candidate.library.digest()) {
-    candidate.errors.push_back(
-        fmt::format("{}: error: it was written while it was read; repeat the command", task.file.string()));
-  } else if (task.config.modules[task.module].operation == scheduler::Operation::Sporadic &&
-             !candidate.library.functions().condition) {
-    candidate.errors.push_back(
-        fmt::format("{}: error: it has no condition(); a sporadic module needs one", task.file.string()));
+  } else {
+    candidate.library = std::move(loaded).value();
+    check_loaded(task, candidate);
   }
   for (const std::string& text : runtime::take_binding_errors()) {
     candidate.errors.push_back(fmt::format("{}: error: {}", task.file.string(), text));

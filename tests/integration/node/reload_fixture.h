@@ -7,9 +7,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "node_fixture.h"
+#include "store/vars/store.h"
 
 namespace indurop::test {
 
