@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "node/modules/module_memory.h"
@@ -32,5 +34,8 @@ struct Carry {
 
 // Compares what both keep. The pairs have the addresses of both. `most`: what may be copied in a tick.
 Carry plan_carry(const ModuleMemory& from, const ModuleMemory& to, std::size_t most = kMostInTick);
+
+// The same for two processes, by the forms of their keyframes; nullopt: it declares nothing. There are no pairs.
+Carry plan_carry(const std::optional<std::string>& from, const std::optional<std::string>& to);
 
 }  // namespace indurop::node

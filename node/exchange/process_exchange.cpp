@@ -12,9 +12,9 @@
 #include "core/keys/digest.h"
 #include "core/rt/clock.h"
 #include "core/rt/copy_text.h"
+#include "node/exchange/carry.h"
 #include "node/exchange/version_text.h"
 #include "store/operate/journal.h"
-#include "store/tape/process_keyframes.h"
 
 namespace indurop::node {
 namespace {
@@ -92,11 +92,8 @@ void ProcessExchange::prepared() {
 }
 
 bool ProcessExchange::is_wanted(const Candidate& candidate) {
-  const auto& run = context_.parts.run;
-  const bool keeps = tape::ProcessKeyframes::open(context_.parts.node, module_, run.node_pid.load()).ok();
   report_.errors = candidate.errors;
   report_.needs_restart = candidate.needs_restart;
-  report_.plan.why_not = "a process begins with its initial values";
   report_.to = candidate.digest;
   if (!report_.errors.empty()) {
     answer(CommandResult::Refused, count_errors(report_));
@@ -104,17 +101,21 @@ bool ProcessExchange::is_wanted(const Candidate& candidate) {
     answer(CommandResult::Unchanged, "this version runs already");
   } else if (record().state.load() != ModuleState::Running) {
     answer(CommandResult::Refused, "its process does not run, so no other one can follow it");
-  } else if (keeps && !request_.lossy) {
-    answer(CommandResult::Refused, "what its process keeps would be lost; --lossy exchanges it nevertheless");
   } else if (request_.dry_run) {
-    answer(CommandResult::Done, "would be exchanged, with initial values");
+    answer(CommandResult::Done, "would be exchanged; only a process of the new version tells what is carried");
   } else {
     return true;
   }
   return false;
 }
 
+std::optional<std::string> ProcessExchange::form_of(tape::ProcessKeyframes::Of of) const {
+  const auto kept = tape::ProcessKeyframes::open(context_.parts.node, module_, context_.parts.run.node_pid.load(), of);
+  return kept ? std::optional(kept->form()) : std::nullopt;
+}
+
 void ProcessExchange::launch() {
+  tape::ProcessKeyframes::remove(context_.parts.node, module_, tape::ProcessKeyframes::Of::Next);
   const auto launched = processes_.launch_next_to(module_, other_.file);
   if (!launched) {
     answer(CommandResult::Failed, fmt::format("cannot be started: {}", std::strerror(launched.error().sys_errno)));
@@ -142,10 +143,23 @@ void ProcessExchange::await_ready(rt::MonoTime now) {
   } else if (record().state.load() != ModuleState::Running) {
     abort("the process that runs has faulted or was stopped meanwhile", now);
   } else if (slot().ready.load(std::memory_order_acquire) == other_.pid) {
-    follow_in_ = next_macro_period(context_);
-    step_ = Step::Ready;
+    compare(now);
   } else if (now > deadline_) {
     abort(fmt::format("it has not called irp::waitPeriod() within {} s", kStartLimit.count()), now);
+  }
+}
+
+// What both processes keep is known now.
+void ProcessExchange::compare(rt::MonoTime now) {
+  const Carry carry =
+      plan_carry(form_of(tape::ProcessKeyframes::Of::Running), form_of(tape::ProcessKeyframes::Of::Next));
+  report_.plan = carry.plan;
+  if (carry.loses && !request_.lossy) {
+    answer(CommandResult::Refused, "values would be lost; --lossy exchanges it nevertheless");
+    leave(now);
+  } else {
+    follow_in_ = next_macro_period(context_);
+    step_ = Step::Ready;
   }
 }
 
@@ -190,11 +204,14 @@ void ProcessExchange::note_exchanged(rt::MonoTime now) {
   slot().successor.store(0);
   report_.tick = slot().follow_tick.load() + 1;
   report_.left_out = record().skipped.load() - skipped_before_;
+  const std::int64_t two_periods = 2 * record().period_ns / context_.parts.run.basic_period_ns;
+  judged_from_ = report_.tick + static_cast<std::uint64_t>(two_periods) + 1;
   set_version(request_.health_ns > 0 ? VersionState::Watched : VersionState::Settled);
   context_.parts.console.info("module {}: version {} ({}) is process {}, since tick {}: {} runs left out",
                               record().name, record().version.load(), short_digest(digest_), processes_.pid(module_),
                               report_.tick, report_.left_out);
-  answer(CommandResult::Done, "exchanged, with initial values");
+  answer(CommandResult::Done,
+         report_.plan.with_state ? "exchanged, with what it keeps" : "exchanged, with initial values");
   deadline_ = now + std::chrono::nanoseconds(request_.health_ns);
   step_ = Step::Watched;
 }
@@ -213,6 +230,9 @@ std::optional<Exchange::Reason> ProcessExchange::fault() const {
 }
 
 void ProcessExchange::check_health(rt::MonoTime now) {
+  if (context_.parts.run.tick.load() < judged_from_) {
+    overruns_before_ = record().overruns.load();  // a run that was late because of the exchange
+  }
   const bool only_this_one = has_ended(other_) || record().state.load() == ModuleState::Stopped;
   const auto reason = fault();
   if (reason && !only_this_one) {

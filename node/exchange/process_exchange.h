@@ -14,6 +14,7 @@
 #include <string>
 
 #include "node/exchange/module_exchange.h"
+#include "store/tape/process_keyframes.h"
 
 namespace indurop::node {
 
@@ -60,6 +61,9 @@ class ProcessExchange {
   // Returns false if it was answered that nothing is exchanged.
   bool is_wanted(const Candidate& candidate);
   void launch();
+  // What a process of this module keeps; nothing: it does not declare it.
+  [[nodiscard]] std::optional<std::string> form_of(tape::ProcessKeyframes::Of of) const;
+  void compare(rt::MonoTime now);
   void await_ready(rt::MonoTime now);
   void let_follow(rt::MonoTime now);
   void await_follow(rt::MonoTime now);
@@ -98,6 +102,7 @@ class ProcessExchange {
   bool was_asked_ = false;       // the other one to end
   std::uint64_t skipped_before_ = 0;
   std::uint64_t overruns_before_ = 0;
+  std::uint64_t judged_from_ = 0;  // tick after which an overrun is one of the new process
   scheduler::Exchange::Reason reason_ = scheduler::Exchange::Reason::None;  // of the way back
 };
 

@@ -5,39 +5,17 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstring>
-#include <optional>
 #include <utility>
 
-#include "node/modules/grown_array.h"
-#include "store/tape/process_keyframes.h"
+#include "store/tape/grown_array.h"
 #include "store/tape/state_copy.h"
+#include "store/tape/state_form.h"
 
 namespace indurop::node {
 namespace {
 
 constexpr std::string_view kPlaces = "place of each of these";
-
-struct FormLine {
-  std::string_view name;
-  std::string_view type;
-  std::size_t size = 0;
-};
-
-// Takes the first line off a form; nullopt: it is none.
-std::optional<FormLine> next_line(std::string_view& form) {
-  const std::size_t name_end = form.find('\t');
-  const std::size_t type_end = name_end == std::string_view::npos ? name_end : form.find('\t', name_end + 1);
-  const std::size_t end = type_end == std::string_view::npos ? type_end : form.find('\n', type_end);
-  if (end == std::string_view::npos) {
-    return std::nullopt;
-  }
-  FormLine line{form.substr(0, name_end), form.substr(name_end + 1, type_end - name_end - 1), 0};
-  const auto read = std::from_chars(form.data() + type_end + 1, form.data() + end, line.size);
-  form.remove_prefix(end + 1);
-  return read.ec == std::errc() && read.ptr == form.data() - 1 ? std::optional(line) : std::nullopt;
-}
 
 StateAddress address_in(const std::byte* bytes, std::size_t size) noexcept {
   StateAddress address;
@@ -156,7 +134,7 @@ std::size_t ModuleMemory::save(std::span<std::byte> to) const {
 const ModuleMemory::Item* ModuleMemory::find(const Old& old) const noexcept {
   const auto item = std::find_if(items_.begin(), items_.end(), [&](const Item& one) {
     const bool same = one.type == old.type && one.bytes() == old.bytes.size();
-    const bool grown = one.kind == Kind::Value && has_grown(old.type, one.type) && old.bytes.size() < one.bytes();
+    const bool grown = one.kind == Kind::Value && tape::has_grown(old.type, one.type) && old.bytes.size() < one.bytes();
     return one.name == old.name && (same || grown);
   });
   return item == items_.end() ? nullptr : &*item;
@@ -166,7 +144,7 @@ std::vector<std::string> ModuleMemory::restore(std::string_view form, std::span<
   std::vector<Old> all;
   std::span<const std::uint8_t> places;
   bool by_function = !uses_functions();
-  while (const auto line = next_line(form)) {
+  while (const auto line = tape::take_line(form)) {
     if (line->type == tape::kFormOfFunctions) {
       by_function = uses_functions() && functions_.restore(bytes.data(), bytes.size());
       break;  // they are the last ones

@@ -4,7 +4,7 @@
 #include "core/base/json.h"
 #include "core/base/replace_file.h"
 #include "node/replay/kept_text.h"
-#include "store/tape/process_keyframes.h"
+#include "store/tape/state_form.h"
 
 namespace indurop::node {
 namespace {

@@ -174,6 +174,9 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
   holder_ = holder;
   enrolled_as_ = follows ? successor : is_launched ? launched : pid_;  // a script may run between the node and it
   phase_ = follows ? Phase::Turn : Phase::Prepared;
+  close_records();
+  kept_ = KeptThread::prepare(node_, index, run);
+  is_prepared_ = follows;
   if (!follows) {
     open_records();
   }

@@ -60,7 +60,9 @@ class Enrolment {
   void follow();
   void wait_for_turn();
   void give_way();
+  void wait_for_hand_over(std::int32_t other, const tape::ProcessKeyframes* keyframes);
   void open_records();
+  void close_records();
   static void take_priority(const scheduler::ModuleRecord& record);
   static void lock_memory(const scheduler::ModuleRecord& record);
   void finish_run() noexcept;
@@ -80,6 +82,7 @@ class Enrolment {
   std::int32_t enrolled_as_ = 0;  // pid under which the node knows this process
   std::uint64_t seen_ = 0;        // last release handled
   bool running_ = false;
+  bool is_prepared_ = false;  // to follow for the first time: `kept_` is what it will keep
   int exit_code_ = 0;
   bool end_wanted_ = false;
   unsigned idle_ = 0;  // consecutive waits that no release ended

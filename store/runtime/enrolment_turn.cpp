@@ -4,32 +4,46 @@
 // release is lost.
 
 #include <cstdio>
+#include <utility>
 
+#include "core/base/exit_code.h"
 #include "core/rt/clock.h"
 #include "core/rt/thread.h"
 #include "store/runtime/enrolment.h"
+#include "store/runtime/host.h"
 #include "store/runtime/process.h"
+#include "store/vars/process.h"
 
 namespace indurop::runtime {
 
 namespace {
 
-constexpr std::int64_t kLastRunPollNs = 200'000;
+using tape::HandOver;
+
+constexpr std::int64_t kLastRunPollNs = 20'000;
 
 }  // namespace
+
+void Enrolment::close_records() {
+  set_current_track(nullptr);
+  kept_.reset();
+  tape_.reset();
+}
 
 // Tape and keyframes of the module. One process at a time has them open.
 void Enrolment::open_records() {
   const std::uint32_t module = hot.process_module.load(std::memory_order_relaxed);
-  set_current_track(nullptr);
-  kept_.reset();
-  tape_.reset();
   if (const Attachment* attachment = hot.attachment.load(std::memory_order_acquire)) {
     if (auto member = tape::Member::open(node_, module, attachment->store())) {
       tape_ = std::move(member).value();
     }
   }
-  kept_ = KeptThread::begin(node_, module, mapping_->block(), tape_ ? &tape_->track() : nullptr);
+  if (kept_ && !kept_->start(node_, module, tape_ ? &tape_->track() : nullptr)) {
+    kept_.reset();
+  }
+  if (!kept_) {
+    tape::ProcessKeyframes::remove(node_, module, tape::ProcessKeyframes::Of::Running);
+  }
 }
 
 void Enrolment::wait_for_turn() {
@@ -46,17 +60,45 @@ void Enrolment::wait_for_turn() {
   }
 }
 
+// Waits until the other process has finished its run and written what it keeps, or no more is to be expected of it.
+void Enrolment::wait_for_hand_over(std::int32_t other, const tape::ProcessKeyframes* keyframes) {
+  const auto has_ended_run = [this] {
+    return slot_->done.load(std::memory_order_acquire) == slot_->taken.load(std::memory_order_seq_cst);
+  };
+  const std::uint64_t started = vars::process_start_time(other);
+  const auto has_handed_over = [keyframes, other, started] {
+    return keyframes == nullptr || keyframes->words().hand_over.load(std::memory_order_acquire) != HandOver::None ||
+           !vars::process_alive(other, started);
+  };
+  while (!(has_ended_run() && has_handed_over()) && slot_->stop.load(std::memory_order_acquire) == 0 &&
+         slot_->may_follow.load(std::memory_order_acquire) == enrolled_as_ && mapping_->node_alive()) {
+    rt::sleep_until(rt::mono_time(rt::now_ns() + kLastRunPollNs));
+  }
+}
+
 // From now on the node releases this process.
 void Enrolment::follow() {
   const scheduler::RunBlock& run = mapping_->block();
+  const std::uint32_t module = hot.process_module.load(std::memory_order_relaxed);
   if (run.virtual_ns.load(std::memory_order_relaxed) == 0) {
-    take_priority(run.modules()[hot.process_module.load(std::memory_order_relaxed)]);
+    take_priority(run.modules()[module]);
   }
-  slot_->pid.store(enrolled_as_, std::memory_order_seq_cst);
+  const bool returns = !is_prepared_;  // it has values of its own to continue with
+  if (!std::exchange(is_prepared_, false)) {
+    kept_ = KeptThread::prepare(node_, module, run);
+  }
+  const auto theirs = tape::ProcessKeyframes::open(node_, module, run.node_pid.load(std::memory_order_relaxed));
+  const std::int32_t other = slot_->pid.exchange(enrolled_as_, std::memory_order_seq_cst);
   slot_->wake.wake();  // the other one gives way
-  while (slot_->done.load(std::memory_order_acquire) != slot_->taken.load(std::memory_order_seq_cst) &&
-         slot_->stop.load(std::memory_order_acquire) == 0 && mapping_->node_alive()) {
-    rt::sleep_until(rt::mono_time(rt::now_ns() + kLastRunPollNs));
+  wait_for_hand_over(other, theirs ? &theirs.value() : nullptr);
+  if (kept_ && theirs) {
+    const bool written = theirs->words().hand_over.load(std::memory_order_acquire) == HandOver::Written;
+    if (!(written && kept_->take_over(*theirs)) && !returns) {
+      std::fprintf(stderr, "indurop: what the process before this one keeps cannot be taken over; this one ends\n");
+      end_wanted_ = true;
+      exit_code_ = kFailed;
+      return;
+    }
   }
   open_records();
   seen_ = slot_->taken.load(std::memory_order_seq_cst);
@@ -70,13 +112,15 @@ void Enrolment::follow() {
 
 // Another process is released now.
 void Enrolment::give_way() {
-  slot_->wake.wake();     // if this process was woken in its place
+  slot_->wake.wake();  // if this process was woken in its place
+  if (kept_) {
+    kept_->hand_over();  // the other one waits for it
+  }
   (void)rt::set_fifo(0);  // nothing that it does from here on, such as ending, delays a module
-  set_current_track(nullptr);
-  kept_.reset();
-  tape_.reset();
+  close_records();
   const std::int32_t holder = slot_->pid.load(std::memory_order_acquire);
-  if (slot_->previous.load(std::memory_order_acquire) == enrolled_as_) {
+  if (slot_->previous.load(std::memory_order_acquire) == enrolled_as_ ||
+      slot_->may_follow.load(std::memory_order_acquire) == enrolled_as_) {
     phase_ = Phase::Turn;
     return;
   }

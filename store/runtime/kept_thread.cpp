@@ -11,6 +11,7 @@
 #include "core/rt/clock.h"
 #include "core/rt/guard.h"
 #include "store/runtime/process.h"
+#include "store/tape/grown_array.h"
 #include "store/tape/state_copy.h"
 
 // A process module that declares what it keeps defines this function; the linker then exports it, because this library
@@ -21,6 +22,7 @@ namespace indurop::runtime {
 namespace {
 
 constexpr std::int64_t kLongestSleepNs = 1'000'000'000;
+constexpr std::int64_t kCopyPollNs = 20'000;
 
 const std::byte* item_at(const StateDescriptor& declared, std::uint32_t index) {
   return reinterpret_cast<const std::byte*>(declared.items) + std::size_t{index} * declared.item_size;
@@ -60,8 +62,8 @@ std::optional<std::string> form_of(const StateDescriptor& declared, std::uint64_
 
 }  // namespace
 
-std::unique_ptr<KeptThread> KeptThread::begin(const std::string& node, std::uint32_t module,
-                                              const scheduler::RunBlock& run, const tape::Track* track) {
+std::unique_ptr<KeptThread> KeptThread::prepare(const std::string& node, std::uint32_t module,
+                                                const scheduler::RunBlock& run) {
   StateDescriptor declared;
   if (&indurop_module_state == nullptr) {
     return nullptr;
@@ -76,7 +78,7 @@ std::unique_ptr<KeptThread> KeptThread::begin(const std::string& node, std::uint
   if (has_functions(declared)) {
     rt::install_guard_handlers();
   }
-  std::unique_ptr<KeptThread> kept(new KeptThread(declared, run, track, std::move(file).value()));
+  std::unique_ptr<KeptThread> kept(new KeptThread(declared, run, std::move(file).value()));
   auto thread = rt::Thread::start({.name = "keyframes"}, [own = kept.get()] { own->answer(); });
   if (!thread) {
     return nullptr;
@@ -85,9 +87,54 @@ std::unique_ptr<KeptThread> KeptThread::begin(const std::string& node, std::uint
   return kept;
 }
 
+bool KeptThread::start(const std::string& node, std::uint32_t module, const tape::Track* track) {
+  track_.store(track);
+  return tape::ProcessKeyframes::set_running(node, module).ok();
+}
+
 KeptThread::~KeptThread() {
   ending_.store(true);
   file_.words().wake.wake();
+}
+
+// The other process waits, so the thread is not waited for, unless it is copying.
+void KeptThread::hand_over() {
+  ending_.store(true);
+  while (is_copying_.exchange(true, std::memory_order_acquire)) {
+    rt::sleep_until(rt::mono_time(rt::now_ns() + kCopyPollNs));
+  }
+  file_.words().hand_over.store(take() ? tape::HandOver::Written : tape::HandOver::Failed, std::memory_order_release);
+}
+
+bool KeptThread::take_over(const tape::ProcessKeyframes& from) {
+  const std::string form = from.form();
+  std::span<const std::uint8_t> bytes = from.newest();
+  std::string_view rest = form;
+  while (const auto line = tape::take_line(rest)) {
+    if (line->type == tape::kFormOfFunctions) {
+      return has_functions(declared_) && declared_.restore(bytes.data(), bytes.size());
+    }
+    if (line->size > bytes.size()) {
+      return false;
+    }
+    put_back(*line, bytes.first(line->size));
+    bytes = bytes.subspan(line->size);
+  }
+  return true;
+}
+
+// An array with more elements than in the other process keeps its own values in the new ones.
+void KeptThread::put_back(const tape::FormLine& line, std::span<const std::uint8_t> bytes) {
+  for (std::uint32_t i = 0; i < declared_.item_count; ++i) {
+    const StateItem item = item_of(declared_, i);
+    const std::string_view type(item.type, item.type_length);
+    const bool same = type == line.type && item.size == bytes.size();
+    if (std::string_view(item.name, item.name_length) == line.name &&
+        (same || (tape::has_grown(line.type, type) && item.size > bytes.size()))) {
+      std::memcpy(item.address, bytes.data(), bytes.size());
+      return;
+    }
+  }
 }
 
 void KeptThread::answer() {
@@ -98,7 +145,11 @@ void KeptThread::answer() {
     if (asked == words.answered.load(std::memory_order_relaxed) || ending_.load()) {
       continue;
     }
+    if (is_copying_.exchange(true, std::memory_order_acquire)) {
+      return;  // it is handed over
+    }
     const bool done = words.puts_back.load(std::memory_order_relaxed) != 0 ? put_back() : take();
+    is_copying_.store(false, std::memory_order_release);
     words.done.store(done ? 1 : 0, std::memory_order_relaxed);
     words.answered.store(asked, std::memory_order_release);
   }
@@ -111,7 +162,8 @@ bool KeptThread::take() {
     return false;
   }
   tape::KeyframeHead head;
-  head.run = track_ != nullptr ? track_->runs() : 0;
+  const tape::Track* const track = track_.load();
+  head.run = track != nullptr ? track->runs() : 0;
   head.tick = run_.tick.load();
   head.time_ns = rt::to_ns(schedule_now());
   const std::span<std::byte> room = file_.room();

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "core/rt/signal_word.h"
@@ -19,8 +18,8 @@
 
 namespace indurop::tape {
 
-// The type of the line for the bytes of a module's own functions, in the form of a keyframe.
-inline constexpr std::string_view kFormOfFunctions = "bytes of its save()";
+// Whether a process that another one follows has written what it kept after its last run.
+enum class HandOver : std::uint32_t { None, Written, Failed };
 
 // What the node asks the process for, at the end of the memory. One request at a time.
 struct KeyframeRequestWords {
@@ -30,6 +29,7 @@ struct KeyframeRequestWords {
   std::atomic<std::uint64_t> bytes;      // in the room, to put back
   std::atomic<std::uint32_t> puts_back;  // 1: what is in the room is put back; 0: a keyframe is written
   std::atomic<std::uint32_t> done;       // 0: it was not possible, because a run was being executed
+  std::atomic<HandOver> hand_over;       // Written: the newest keyframe has what it kept
 };
 
 class ProcessKeyframes {
@@ -38,11 +38,18 @@ class ProcessKeyframes {
     std::string form;
     std::uint64_t most = 0;  // bytes of one keyframe
   };
-  // The process's end. Replaces those of an earlier process of this module. Errors: those of KeyframeWriter.
+  // Those of the process that runs, and of one that prepares itself to follow it.
+  enum class Of { Running, Next };
+  // The process's end, as one that prepares itself. Errors: those of KeyframeWriter.
   static Result<ProcessKeyframes> create(const std::string& node, std::uint32_t module, std::int32_t node_pid,
                                          const Plan& plan);
-  // The node's end. Errors: NotFound (the process declares nothing), those of KeyframeFollower.
-  static Result<ProcessKeyframes> open(const std::string& node, std::uint32_t module, std::int32_t node_pid);
+  // Replaces those of the process that ran before. Errors: System.
+  static Status set_running(const std::string& node, std::uint32_t module);
+  static void remove(const std::string& node, std::uint32_t module, Of of);
+  // The node's end, or that of a process that follows. Errors: NotFound (the process declares nothing), those of
+  // KeyframeFollower.
+  static Result<ProcessKeyframes> open(const std::string& node, std::uint32_t module, std::int32_t node_pid,
+                                       Of of = Of::Running);
 
   // For one thread of each end.
   [[nodiscard]] KeyframeRequestWords& words() const noexcept;
@@ -57,7 +64,7 @@ class ProcessKeyframes {
   KeyframeWriter writer_;
 };
 
-// The file of these keyframes.
+// The file of the keyframes of the process that runs.
 std::string process_keyframe_file(const std::string& node, std::uint32_t module);
 
 }  // namespace indurop::tape

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Process modules that are exchanged while the node runs: another process follows between two runs, each release is
 // taken by one of them, and the previous one returns if the new one fails.
+#include <fmt/format.h>
+
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <string>
 
+#include "core/rt/clock.h"
 #include "reload_fixture.h"
 
 namespace indurop::test {
@@ -53,7 +58,7 @@ TEST_F(ReloadProcess, Another_process_follows_and_each_run_is_executed_once) {
   ASSERT_TRUE(runs_reach("process", 20));
   for (int i = 0; i < kTimes; ++i) {
     const pid_t before = pid();
-    const Outcome done = reload({"process", version(i), "--health", "0s"});
+    const Outcome done = reload({"process", version(i), "--lossy", "--health", "0s"});
     ASSERT_EQ(done.code, 0) << done.err;
     EXPECT_CONTAINS(done.out, "version " + std::to_string(i + 2) + " runs since tick");
     EXPECT_NE(pid(), before);
@@ -73,9 +78,9 @@ TEST_F(ReloadProcess, The_previous_process_returns_by_command_and_after_a_fault)
   ASSERT_TRUE(runs_reach("process", 20));
   const pid_t first = pid();
   for (const bool by_command : {true, false}) {
-    Program client(
-        {INDUROP_PROGRAM, "reload", "process", version(by_command ? 1 : 2), "--health", "60s", "--node", node()},
-        environment());
+    Program client({INDUROP_PROGRAM, "reload", "process", version(by_command ? 1 : 2), "--lossy", "--health", "60s",
+                    "--node", node()},
+                   environment());
     ASSERT_TRUE(wait_until([&] { return module("process").version_state.load() == VersionState::Watched; }));
     const pid_t second = pid();
     EXPECT_NE(second, first);
@@ -102,7 +107,10 @@ TEST_F(ReloadProcess, A_new_process_that_cannot_run_changes_nothing) {
   Program& sut = start_and_wait({process("rambler_process.exe", "")});
   ASSERT_TRUE(runs_reach("process", 20));
   const pid_t before = pid();
-  EXPECT_CONTAINS(reload({"process", version(1, "rambler_process.exe")}).err, "--lossy exchanges it nevertheless");
+  const Outcome lossy = reload({"process", version(1, "rambler_by_process.exe")});
+  EXPECT_EQ(lossy.code, 4) << lossy.err;
+  EXPECT_CONTAINS(lossy.err, "--lossy exchanges it nevertheless");
+  EXPECT_CONTAINS(lossy.out, "the other one copies them by functions");
   EXPECT_CONTAINS(reload({"process", folder().string() + "/missing.exe"}).err, "missing.exe");
   EXPECT_CONTAINS(reload({"process", "/bin/true", "--lossy"}).err,
                   "exited with code 0 before it called irp::waitPeriod()");
@@ -112,11 +120,86 @@ TEST_F(ReloadProcess, A_new_process_that_cannot_run_changes_nothing) {
   EXPECT_EQ(sut.wait(), 0) << sut.err();
 }
 
+// What rambler.cpp has walked after so many runs of one process: the sum of 3 + n % 5.
+std::int64_t walked_after(std::uint64_t runs) {
+  std::int64_t walked = 0;
+  for (std::uint64_t n = 1; n <= runs; ++n) {
+    walked += 3 + static_cast<std::int64_t>(n % 5);
+  }
+  return walked;
+}
+
+TEST_F(ReloadProcess, What_a_process_keeps_goes_to_the_next_one_and_back) {
+  for (const std::string file : {"rambler_process.exe", "rambler_by_process.exe"}) {
+    Program& sut = start_and_wait({process(file, "")});
+    ASSERT_TRUE(runs_reach("process", 20));
+    for (int i = 0; i < 5; ++i) {
+      const Outcome done = reload({"process", version(i, file), "--health", "0s"});
+      ASSERT_EQ(done.code, 0) << done.err;
+      EXPECT_CONTAINS(done.err, "exchanged, with what it keeps");
+      EXPECT_TRUE(runs_more());
+    }
+    Program client({INDUROP_PROGRAM, "reload", "process", version(5, file), "--health", "60s", "--node", node()},
+                   environment());
+    ASSERT_TRUE(wait_until([&] { return module("process").version_state.load() == VersionState::Watched; }));
+    EXPECT_TRUE(runs_more());
+    EXPECT_EQ(reload({"process", "--back"}).code, 0);
+    EXPECT_EQ(client.wait(), 5) << client.err();
+    EXPECT_TRUE(runs_more());
+    EXPECT_TRUE(wait_until([&] {
+      const std::uint64_t runs = module("process").runs.load();
+      const auto walked = value<std::int64_t>("nt::walked");
+      return walked == walked_after(runs) || walked == walked_after(runs + 1);
+    })) << file
+        << ": " << value<std::int64_t>("nt::walked") << " after " << module("process").runs.load() << " runs";
+    EXPECT_EQ(module("process").skipped.load(), run()->lost_ticks.load());
+    sut.signal(SIGTERM);
+    EXPECT_EQ(sut.wait(), 0) << sut.err();
+    for (int i = 0; i <= 5; ++i) {
+      std::filesystem::remove(folder() / fmt::format("version{}.exe", i));
+    }
+  }
+}
+
+// Whatever moment it is, one process runs afterwards, and continues with what one of the two has kept.
+TEST_F(ReloadProcess, A_new_process_that_is_killed_at_any_moment_leaves_one_that_continues) {
+  constexpr int kTimes = 12;
+  start_and_wait({process("rambler_process.exe", "")});
+  ASSERT_TRUE(runs_reach("process", 20));
+  std::mt19937 random(20261128);  // NOLINT(cert-msc32-c,cert-msc51-cpp): each run of the test is to be the same
+  for (int i = 0; i < kTimes; ++i) {
+    Program client(
+        {INDUROP_PROGRAM, "reload", "process", version(i, "rambler_process.exe"), "--health", "60s", "--node", node()},
+        environment());
+    const auto& slot = run()->process_slots()[0];
+    ASSERT_TRUE(wait_until([&] { return slot.successor.load() > 0; }));
+    const pid_t successor = slot.successor.load();
+    rt::sleep_until(rt::MonoClock::now() +
+                    std::chrono::microseconds(std::uniform_int_distribution<int>(0, 40'000)(random)));
+    if (successor > 0) {
+      ::kill(successor, SIGKILL);
+    }
+    EXPECT_NE(client.wait(), 0) << client.err();
+    EXPECT_TRUE(wait_until([&] { return slot.successor.load() == 0 && pid() > 0 && pid() != successor; }));
+    ASSERT_EQ(module("process").state.load(), ModuleState::Running);
+    EXPECT_TRUE(runs_more());
+    const auto walked = value<std::int64_t>("nt::walked");
+    std::uint64_t runs = 0;
+    while (walked_after(runs) < walked) {
+      ++runs;
+    }
+    EXPECT_EQ(walked_after(runs), walked);
+    EXPECT_LE(runs, module("process").runs.load() + 1);
+    EXPECT_GE(runs, 20U);
+  }
+  EXPECT_EQ(module("process").restarts.load(), 0U);
+}
+
 TEST_F(ReloadProcess, A_node_that_ends_in_the_health_window_ends_both_processes) {
   Program& sut = start_and_wait({process()});
   ASSERT_TRUE(runs_reach("process", 20));
   const pid_t first = pid();
-  Program client({INDUROP_PROGRAM, "reload", "process", version(1), "--health", "60s", "--node", node()},
+  Program client({INDUROP_PROGRAM, "reload", "process", version(1), "--lossy", "--health", "60s", "--node", node()},
                  environment());
   ASSERT_TRUE(wait_until([&] { return module("process").version_state.load() == VersionState::Watched; }));
   const pid_t second = pid();

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -203,6 +204,31 @@ TEST(CarryPlan, What_is_large_or_copied_by_functions_is_copied_between_two_runs)
   EXPECT_TRUE(sut.between_runs);
   EXPECT_TRUE(sut.plan.with_state);
   EXPECT_THAT(plan_carry(ModuleMemory(large), ModuleMemory(functions)).plan.why_not, HasSubstr("INDUROP_STATE_BY"));
+}
+
+TEST(CarryOfProcesses, Is_planned_by_the_forms_of_their_keyframes) {
+  const Carry carry = plan_carry("steps\tint\t4\nramp\tint [2]\t8\nspeed\tfloat\t4\nold\tbool\t1\n",
+                                 "ramp\tint [4]\t16\nsteps\tint\t4\nspeed\tdouble\t8\nheat\tdouble\t8\n");
+  EXPECT_TRUE(carry.plan.with_state);
+  EXPECT_THAT(carry.plan.kept, ElementsAre("steps"));
+  EXPECT_THAT(carry.plan.grown, ElementsAre("ramp"));
+  EXPECT_THAT(carry.plan.changed, ElementsAre("speed"));
+  EXPECT_THAT(carry.plan.added, ElementsAre("heat"));
+  EXPECT_THAT(carry.plan.removed, ElementsAre("old"));
+  EXPECT_EQ(carry.plan.bytes, 12U);
+  EXPECT_TRUE(carry.loses) << "speed";
+  EXPECT_THAT(carry.pairs, IsEmpty());
+}
+
+TEST(CarryOfProcesses, Loses_what_one_of_them_does_not_declare) {
+  const std::string form = "steps\tint\t4\n";
+  EXPECT_THAT(plan_carry(std::nullopt, form).plan.why_not, HasSubstr("the running version does not declare"));
+  EXPECT_TRUE(plan_carry(std::nullopt, form).loses);
+  EXPECT_THAT(plan_carry(form, std::nullopt).plan.why_not, HasSubstr("the new version does not declare"));
+  EXPECT_THAT(plan_carry(form, "\tbytes of its save()\t64\n").plan.why_not, HasSubstr("by functions"));
+  EXPECT_FALSE(plan_carry("", form).loses) << "the one that runs keeps nothing";
+  EXPECT_FALSE(plan_carry(form, "").loses) << "the new one needs nothing";
+  EXPECT_FALSE(plan_carry(form, form).loses);
 }
 
 }  // namespace

@@ -315,7 +315,7 @@ const Verb kReloadVerb{
     "The new version is checked, loaded and started next to the running one. It replaces the running version\n"
     "between two runs and continues with what the module keeps (INDUROP_STATE; automatic for PLC programs); no\n"
     "run is skipped. If it then faults, overruns or violates the guard within the health window, the previous\n"
-    "version runs again in the next tick. A process is followed by another one, which begins with initial values.\n"
+    "version runs again in the next tick. A process is followed by another one, which takes over what it keeps.\n"
     "With --config, the schedule of the whole node changes: the verb reports what happens to each module, modules\n"
     "that stay lose no tick, and a change that requires a restart is rejected.\n"
     "With --shadow, the new version first repeats the runs of the running one, in another process and with the\n"

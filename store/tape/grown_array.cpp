@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "node/modules/grown_array.h"
+#include "store/tape/grown_array.h"
 
 #include <charconv>
 #include <cstdint>
 #include <optional>
 
-namespace indurop::node {
+namespace indurop::tape {
 namespace {
 
 // An array of one dimension: "int [4]", or "ARRAY[1..4] OF INT" of a PLC program.
@@ -53,4 +53,4 @@ bool has_grown(std::string_view before, std::string_view now) noexcept {
   return from && to && from->element == to->element && from->first == to->first && from->last < to->last;
 }
 
-}  // namespace indurop::node
+}  // namespace indurop::tape
