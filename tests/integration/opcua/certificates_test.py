@@ -62,7 +62,7 @@ def test_a_certificate_of_the_plant(setting):
              "ca": str(keys / "ca.pem"), "revoked": str(keys / "revoked.pem")}
     refused(lambda: client.connect(**words))
     pki = setting.folder / "opcua/pki"
-    for one in (pki / "rejected").iterdir():
+    for one in wait_for(lambda: list((pki / "rejected").iterdir()), "the rejected certificate"):
         one.rename(pki / "trusted/certs" / one.name)
     connect_when_trusted(client, **words)
     assert client.read(setting.id("knu::Robot::gain"))["code"] == "Good"
