@@ -216,6 +216,7 @@ Candidate make_candidate(const CandidateTask& task) {
   if (auto loaded = load_apart(task.file, task.index); !loaded) {
     candidate.errors.push_back(fmt::format("{}: error: {}", task.file.string(), loaded.error().text));
   } else {
+    loaded.value().set_uses(candidate.library.uses());  // known from the file
     candidate.library = std::move(loaded).value();
     check_loaded(task, candidate);
   }
