@@ -65,8 +65,8 @@ class DeploymentSide {
     return found == digests_.end() ? "" : found->second;
   }
   [[nodiscard]] const std::map<std::string, std::string>& digests() const noexcept { return digests_; }
-  // The files of all thread modules, on all boards.
-  [[nodiscard]] std::set<std::string> thread_files() const {
+  // The files of all modules that can be exchanged, on all boards.
+  [[nodiscard]] std::set<std::string> exchangeable_files() const {
     std::set<std::string> files;
     for (const config::Board& board : plant_.boards) {
       for (const config::Module& module : board.config.modules) {
@@ -78,7 +78,7 @@ class DeploymentSide {
     return files;
   }
   static bool is_exchangeable(const config::Module& module) {
-    return module.type == scheduler::ModuleType::Thread && module.operation != scheduler::Operation::NonReal;
+    return module.operation != scheduler::Operation::NonReal && module.signal == 0;
   }
 
  private:
@@ -88,10 +88,10 @@ class DeploymentSide {
   std::map<std::string, std::string> digests_;  // by path, relative to the manifest's folder
 };
 
-// Returns the first file besides the manifest and thread modules that differs; empty: there is none.
+// Returns the first file that differs besides the manifest and modules that can be exchanged; empty: there is none.
 std::string changed_file(const DeploymentSide& before, const DeploymentSide& after) {
-  std::set<std::string> names = before.thread_files();
-  names.merge(after.thread_files());
+  std::set<std::string> names = before.exchangeable_files();
+  names.merge(after.exchangeable_files());
   for (const auto& [name, digest] : after.digests()) {
     const auto then = before.digests().find(name);
     if (names.insert(name).second && (then == before.digests().end() || then->second != digest)) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/rt/copy_text.h"
+#include "node/exchange/exchange_kind.h"
 #include "node/exchange/schedule_change.h"
 
 namespace indurop::node {
@@ -35,7 +36,7 @@ void ExchangeSet::set_state(State state) {
   report_.node_pid = context_.parts.run.node_pid.load();
   report_.modules.clear();
   for (const std::uint32_t module : order_) {
-    report_.modules.push_back(all_.at(module).report());
+    report_.modules.push_back(all_.at(module)->report());
   }
   const ScheduleChange& schedule = *context_.schedule;
   const MacroGrid grid = schedule.common_with_next();
@@ -65,12 +66,12 @@ bool ExchangeSet::is_under_way() const noexcept {
 
 bool ExchangeSet::is_open(std::uint32_t module) const noexcept {
   const auto found = all_.find(module);
-  return found != all_.end() && found->second.is_open();
+  return found != all_.end() && found->second->is_open();
 }
 
 void ExchangeSet::poll(rt::MonoTime now) {
-  for (auto& [module, exchange] : all_) {
-    exchange.go_on(now);
+  for (const auto& [module, exchange] : all_) {
+    exchange->go_on(now);
   }
   go_on();
 }
@@ -115,8 +116,8 @@ std::string ExchangeSet::begin(const SetRequest& request) {
   std::vector<std::pair<std::uint32_t, operate::ReloadRequest>> begins;
   for (const SetRequest::Module& module : request.modules) {
     const std::uint32_t index = index_of(run, module.name);
-    if (index == kNoSuchModule || context_.parts.config.modules[index].type != scheduler::ModuleType::Thread ||
-        context_.parts.config.modules[index].operation == scheduler::Operation::NonReal) {
+    if (index == kNoSuchModule ||
+        why_not_exchanged(context_.parts.config.modules[index], context_.parts.simulated) != nullptr) {
       report_.needs_restart = true;
       return fmt::format("module {} is none that is exchanged while it runs", module.name);
     }
@@ -139,7 +140,7 @@ std::string ExchangeSet::begin(const SetRequest& request) {
   for (const auto& [index, one] : begins) {
     order_.push_back(index);
     files_[index] = one.file;
-    all_.try_emplace(index, context_, index, true).first->second.begin(one);
+    all_.try_emplace(index, make_exchange(context_, index, true)).first->second->begin(one);
   }
   return "";
 }
@@ -149,9 +150,9 @@ std::string ExchangeSet::exchange(std::uint64_t tick) {
   if (report_.state != State::Ready) {
     return "no modules are ready to be exchanged";
   }
-  for (auto& [module, exchange] : all_) {
-    if (exchange.is_ready()) {
-      exchange.enter(tick);
+  for (const auto& [module, exchange] : all_) {
+    if (exchange->is_ready()) {
+      exchange->enter(tick);
     }
   }
   context_.schedule->enter(tick);
@@ -169,8 +170,8 @@ std::string ExchangeSet::decide(const std::string& deployment) {
   }
   if (report_.state == State::Exchanged && deployment == after_) {
     keeps_new_ = true;
-    for (auto& [module, exchange] : all_) {
-      exchange.settle();
+    for (const auto& [module, exchange] : all_) {
+      exchange->settle();
     }
     set_state(State::Leaving);
     return "";
@@ -188,8 +189,8 @@ std::string ExchangeSet::decide(const std::string& deployment) {
 void ExchangeSet::fail(const std::string& why) {
   report_.problem = why;
   keeps_new_ = false;
-  for (auto& [module, exchange] : all_) {
-    exchange.go_back();
+  for (const auto& [module, exchange] : all_) {
+    exchange->go_back();
   }
   context_.schedule->go_back();
   set_state(State::Leaving);
@@ -221,11 +222,11 @@ void ExchangeSet::go_on() {
 
 void ExchangeSet::conclude_preparation() {
   for (const auto& [module, exchange] : all_) {
-    if (!exchange.is_prepared()) {
+    if (!exchange->is_prepared()) {
       return;
     }
-    if (exchange.result() == CommandResult::Refused || exchange.result() == CommandResult::Failed) {
-      const operate::ReloadReport& one = exchange.report();
+    if (exchange->result() == CommandResult::Refused || exchange->result() == CommandResult::Failed) {
+      const operate::ReloadReport& one = exchange->report();
       report_.needs_restart = one.needs_restart;
       report_.refused = one.module;
       return fail(fmt::format("module {}: {}", one.module, one.errors.empty() ? one.text : one.errors.front()));
@@ -255,11 +256,11 @@ void ExchangeSet::follow_exchange() {
   }
   bool all_new = schedule.counts || !schedule.changes;
   for (const auto& [module, exchange] : all_) {
-    const bool unchanged = exchange.is_over() && exchange.result() == CommandResult::Unchanged;
-    if (exchange.is_over() && !unchanged && !exchange.runs_new()) {
-      return fail(fmt::format("module {}: {}", exchange.report().module, exchange.report().text));
+    const bool unchanged = exchange->is_over() && exchange->result() == CommandResult::Unchanged;
+    if (exchange->result() == CommandResult::Failed || (exchange->is_over() && !unchanged && !exchange->runs_new())) {
+      return fail(fmt::format("module {}: {}", exchange->report().module, exchange->report().text));
     }
-    all_new = all_new && (unchanged || exchange.has_exchanged() || exchange.is_over());
+    all_new = all_new && (unchanged || exchange->has_exchanged() || exchange->is_over());
   }
   if (all_new && report_.state == State::Waiting) {
     run_deployment(after_);
@@ -276,11 +277,11 @@ void ExchangeSet::conclude() {
   bool any_new = schedule.held().counts;
   bool any_old = schedule.held().changes && !schedule.held().counts;
   for (const auto& [module, exchange] : all_) {
-    if (!exchange.is_over()) {
+    if (!exchange->is_over()) {
       return;
     }
-    any_new = any_new || exchange.runs_new();
-    any_old = any_old || (!exchange.runs_new() && exchange.result() != CommandResult::Unchanged);
+    any_new = any_new || exchange->runs_new();
+    any_old = any_old || (!exchange->runs_new() && exchange->result() != CommandResult::Unchanged);
   }
   const bool mixed = keeps_new_ ? any_old : any_new;
   if (!mixed) {
@@ -310,8 +311,8 @@ void ExchangeSet::run_deployment(const std::string& id) {
 }
 
 void ExchangeSet::end() {
-  for (auto& [module, exchange] : all_) {
-    exchange.end();
+  for (const auto& [module, exchange] : all_) {
+    exchange->end();
   }
   set_state(State::None);
   forget();

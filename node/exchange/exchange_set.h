@@ -7,10 +7,11 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "node/exchange/module_exchange.h"
+#include "node/exchange/version_exchange.h"
 #include "store/operate/exchange_set.h"
 
 namespace indurop::node {
@@ -45,10 +46,10 @@ class ExchangeSet {
   void set_state(operate::SetReport::State state);
 
   ExchangeContext& context_;
-  std::map<std::uint32_t, ModuleExchange> all_;  // by module
-  std::vector<std::uint32_t> order_;             // of the request
-  std::map<std::uint32_t, std::string> files_;   // new ones
-  std::string before_;                           // ids of the two deployments
+  std::map<std::uint32_t, std::unique_ptr<VersionExchange>> all_;  // by module
+  std::vector<std::uint32_t> order_;                               // of the request
+  std::map<std::uint32_t, std::string> files_;                     // new ones
+  std::string before_;                                             // ids of the two deployments
   std::string after_;
   bool compares_ = false;   // nothing is exchanged
   bool keeps_new_ = false;  // decided; while Leaving

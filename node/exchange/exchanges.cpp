@@ -5,6 +5,8 @@
 
 #include "core/rt/clock.h"
 #include "core/rt/copy_text.h"
+#include "node/exchange/exchange_kind.h"
+#include "node/exchange/module_exchange.h"
 
 namespace indurop::node {
 namespace {
@@ -70,8 +72,7 @@ void Exchanges::poll(rt::MonoTime now) {
   set_.poll(now);
   for (std::uint32_t i = 0; i < context_.parts.run.module_count; ++i) {
     const ModuleCommand command = scheduler::waiting_command(record(i));
-    const bool answers_later =
-        module_ == i && ((single_ && !single_->result()) || (process_ && !process_->has_answered()));
+    const bool answers_later = module_ == i && single_ && !single_->result();
     if (command == ModuleCommand::Exchange) {
       set_.command(exchanged_module());
     } else if ((command == ModuleCommand::Reload || command == ModuleCommand::Back) && !answers_later) {
@@ -89,12 +90,6 @@ void Exchanges::go_on(rt::MonoTime now) {
     single_->go_on(now);
     if (single_->is_over()) {
       single_.reset();
-    }
-  }
-  if (process_) {
-    process_->go_on(now);
-    if (process_->is_over()) {
-      process_.reset();
     }
   }
 }
@@ -118,25 +113,11 @@ void Exchanges::accept(std::uint32_t module, ModuleCommand command) {
     answer(module, CommandResult::Refused, "it has ended: the schedule is without it");
   } else if (!request) {
     answer(module, CommandResult::Refused, "the request cannot be read; repeat the command");
-  } else if (configured.operation == scheduler::Operation::NonReal) {
-    answer(module, CommandResult::Refused,
-           configured.type == scheduler::ModuleType::Process
-               ? "it runs in the background, where no run is waited for: `indurop restart` launches its new file"
-               : "it runs in the background, where no run is waited for: stop and run the node to load its new file");
-  } else if (configured.type == scheduler::ModuleType::Process &&
-             (configured.signal != 0 || context_.parts.simulated)) {
-    answer(module, CommandResult::Refused,
-           configured.signal != 0
-               ? "its process is released by a signal, so no other one can follow it: `indurop restart` launches its "
-                 "new file"
-               : "in a simulation, a process is not exchanged: `indurop restart` launches its new file");
-  } else if (configured.type == scheduler::ModuleType::Process) {
-    module_ = module;
-    process_.emplace(context_, module);
-    process_->begin(*request);
+  } else if (const char* why = why_not_exchanged(configured, context_.parts.simulated); why != nullptr) {
+    answer(module, CommandResult::Refused, why);
   } else {
     module_ = module;
-    single_.emplace(context_, module, false);
+    single_ = make_exchange(context_, module, false);
     single_->begin(*request);
   }
 }
@@ -145,8 +126,6 @@ void Exchanges::accept_back(std::uint32_t module) {
   if (single_ && module_ == module && single_->is_watched()) {
     single_->await_answer();
     single_->go_back();
-  } else if (process_ && module_ == module && process_->is_watched()) {
-    process_->go_back();
   } else if (is_under_way()) {
     answer(module, CommandResult::Refused,
            fmt::format("module {} is being exchanged; repeat the command when that is over", exchanged_module()));
@@ -158,8 +137,9 @@ void Exchanges::accept_back(std::uint32_t module) {
            "it does not run, so there is nothing to take over: start it, or name the file of the other version");
   } else {
     module_ = module;
-    single_.emplace(context_, module, false);
-    single_->begin_back(scheduler::Exchange::Reason::Command);
+    auto exchange = std::make_unique<ModuleExchange>(context_, module, false);
+    exchange->begin_back(scheduler::Exchange::Reason::Command);
+    single_ = std::move(exchange);
   }
 }
 
@@ -176,10 +156,6 @@ void Exchanges::end() {
   if (single_) {
     single_->end();
     single_.reset();
-  }
-  if (process_) {
-    process_->end();
-    process_.reset();
   }
   set_.end();
   for (auto& [module, library] : context_.previous) {

@@ -5,13 +5,12 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <string>
 
 #include "config/check/check.h"
 #include "node/exchange/exchange_set.h"
-#include "node/exchange/module_exchange.h"
-#include "node/exchange/process_exchange.h"
+#include "node/exchange/version_exchange.h"
 
 namespace indurop::node {
 
@@ -44,7 +43,7 @@ class Exchanges {
   void accept_back(std::uint32_t module);
   void go_on(rt::MonoTime now);
   // Returns true while a module is exchanged alone.
-  [[nodiscard]] bool is_under_way() const noexcept { return single_ || process_; }
+  [[nodiscard]] bool is_under_way() const noexcept { return single_ != nullptr; }
   // Returns the module that is being exchanged; empty: none.
   [[nodiscard]] std::string exchanged_module() const;
   void answer(std::uint32_t module, scheduler::CommandResult result, const std::string& text);
@@ -53,9 +52,8 @@ class Exchanges {
   }
 
   ExchangeContext context_;
-  std::uint32_t module_ = 0;                // of `single_` or `process_`; both none: none is in progress
-  std::optional<ModuleExchange> single_;    // of a thread
-  std::optional<ProcessExchange> process_;  // of a process
+  std::uint32_t module_ = 0;                 // of `single_`
+  std::unique_ptr<VersionExchange> single_;  // null: none is in progress
   ExchangeSet set_;
 };
 

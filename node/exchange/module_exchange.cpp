@@ -20,34 +20,6 @@ constexpr const char* kRunsNoMore = "the version that runs has faulted or was st
 
 }  // namespace
 
-void ExchangeContext::offer_to_track(std::uint32_t module, const ModuleLibrary& version) const {
-  if (track_of(module) == nullptr) {
-    return;
-  }
-  std::vector<tape::VariableUse> uses;
-  for (const auto& [name, use] : version.uses()) {
-    // The place that now has the name of a variable whose type changes is not the one that this version uses.
-    const vars::DirectoryEntry* const entry = parts.store.find(name);
-    if (entry != nullptr && entry->type_hash == use.type) {
-      uses.push_back({static_cast<std::uint32_t>(entry - parts.store.directory().data()), use.reads, use.writes});
-    }
-  }
-  for (const std::uint32_t variable : parts.tape->offer(module, uses)) {
-    parts.console.warning("{} is too large for the tape of module {} and is not recorded until the node starts again",
-                          parts.store.schema().variables[parts.store.directory()[variable].schema_index].name,
-                          parts.config.modules[module].name);
-  }
-  track_of(module)->set_other_version(version.number());
-}
-
-void ExchangeContext::set_on_track(std::uint32_t module, const ModuleLibrary& version) const {
-  if (tape::Track* const track = track_of(module); track != nullptr) {
-    offer_to_track(module, version);
-    track->take_offered();
-    track->set_version(version.number());
-  }
-}
-
 bool ModuleExchange::is_open() const noexcept {
   return step_ >= Step::Waiting && step_ != Step::Over &&
          (step_ != Step::Watched || exchange_->step() != scheduler::Exchange::Step::Done);
@@ -261,7 +233,7 @@ void ModuleExchange::replace_closed() {
   context_.parts.engine.replace_closed(module_, {other_.functions().run, other_.functions().condition});
   std::swap(running(), other_);
   context_.set_on_track(module_, running());
-  set_version(scheduler::VersionState::Settled);
+  set_version(scheduler::VersionState::Settled, running().digest());
   answer(CommandResult::Done, "is stopped, and begins with this version at `indurop start`");
   if (faulted) {
     context_.retired.abandon(module_, std::move(other_));
@@ -269,22 +241,6 @@ void ModuleExchange::replace_closed() {
     other_.unload();  // its stop() was called
   }
   step_ = Step::Over;
-}
-
-void ModuleExchange::answer(CommandResult result, const std::string& text) {
-  if (result_) {
-    return;
-  }
-  result_ = result;
-  report_.text = text;
-  report_.version = record().version.load();
-  if (!held_) {
-    (void)operate::write_report(context_.parts.node, report_);
-    scheduler::answer_command(record(), result);
-  }
-  if (result == CommandResult::Refused || result == CommandResult::Failed) {
-    context_.parts.console.warning("module {}: not exchanged: {}", record().name, text);
-  }
 }
 
 }  // namespace indurop::node

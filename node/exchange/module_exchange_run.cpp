@@ -23,6 +23,7 @@ using scheduler::VersionState;
 constexpr std::chrono::seconds kNoGapFound{5};  // in addition to two periods
 constexpr std::chrono::milliseconds kReplacedPoll{1};
 constexpr int kCopiesInOneGo = 20;
+constexpr const char* kPreviousRuns = "the previous one, runs again";
 
 std::string numbers_of(const operate::ReloadReport& report) {
   return fmt::format(
@@ -31,10 +32,6 @@ std::string numbers_of(const operate::ReloadReport& report) {
 }
 
 }  // namespace
-
-std::uint64_t next_macro_period(const ExchangeContext& context) {
-  return next_in(context.schedule->grid(), context.parts.run.tick.load());
-}
 
 void ModuleExchange::watch(std::uint64_t tick) {
   Exchange::Settings settings;
@@ -117,9 +114,9 @@ void ModuleExchange::note_exchanged() {
   report_.response_ns = exchange_->response_ns();
   const bool watched = !back_ && (held_ || request_.health_ns > 0);
   if (back_) {
-    report_return(reason_);
+    report_return(reason_, running().digest(), kPreviousRuns);
   } else {
-    set_version(watched ? VersionState::Watched : VersionState::Settled);
+    set_version(watched ? VersionState::Watched : VersionState::Settled, running().digest());
     context_.parts.console.info("module {}: version {} ({}) runs since tick {}{}", record().name,
                                 record().version.load(), short_digest(running().digest()), report_.tick,
                                 numbers_of(report_));
@@ -177,27 +174,8 @@ void ModuleExchange::note_returned() {
   other_is_unsound_ = reason == Exchange::Reason::Fault;
   report_.tick = exchange_->first_tick();
   report_.left_out = record().skipped.load() - skipped_before_ + (other_is_unsound_ ? 1 : 0);
-  report_return(reason);
+  report_return(reason, running().digest(), kPreviousRuns);
   leave();
-}
-
-// The report comes first: a client that sees the version's state reads it.
-void ModuleExchange::report_return(Exchange::Reason reason) {
-  const std::string why = text_of(reason, record());
-  report_.text = "the previous version runs again: " + why;
-  report_.version = record().version.load() + 1;
-  if (!held_) {
-    (void)operate::write_report(context_.parts.node, report_);
-  }
-  if (reason != Exchange::Reason::Command) {  // that one is noted by its client
-    operate::note(context_.parts.node, {rt::to_ns(context_.parts.store.now()), 0, "the node", "", "reload --back",
-                                        record().name, "sha256:" + running().digest(), 0, why});
-  }
-  set_version(VersionState::Returned);
-  context_.parts.console.warning("module {}: version {} ({}), the previous one, runs again since tick {}: {}",
-                                 record().name, record().version.load(), short_digest(running().digest()), report_.tick,
-                                 why);
-  answer(CommandResult::Done, report_.text);
 }
 
 // The module is stopped by a fault, and the thread that runs it could not continue alone.
@@ -223,7 +201,7 @@ void ModuleExchange::return_closed() {
   record().state.store(ModuleState::Running);
   context_.parts.engine.enable(module_);
   report_.tick = context_.parts.run.tick.load();
-  report_return(Exchange::Reason::Fault);
+  report_return(Exchange::Reason::Fault, running().digest(), kPreviousRuns);
   leave();
 }
 
@@ -278,15 +256,6 @@ void ModuleExchange::abort(const std::string& why) {
   answer(CommandResult::Failed, why);
   discard_other();
   step_ = Step::Over;
-}
-
-void ModuleExchange::set_version(VersionState state) {
-  scheduler::ModuleRecord& module = record();
-  const std::uint64_t number = module.version.load() + 1;
-  rt::copy_text(module.digests[number % 2], running().digest());
-  module.version_tick.store(report_.tick);
-  module.version_state.store(state);
-  module.version.store(number, std::memory_order_release);
 }
 
 void ModuleExchange::end() {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "core/keys/digest.h"
@@ -14,7 +15,6 @@
 #include "core/rt/copy_text.h"
 #include "node/exchange/carry.h"
 #include "node/exchange/version_text.h"
-#include "store/operate/journal.h"
 
 namespace indurop::node {
 namespace {
@@ -29,6 +29,7 @@ constexpr std::chrono::seconds kFollowLimit{5};  // in addition to two periods
 constexpr std::chrono::milliseconds kAsked{500};
 constexpr std::chrono::seconds kGrace{2};
 constexpr std::chrono::milliseconds kPoll{1};
+constexpr const char* kGivenUp = "the exchange was given up";
 
 std::string digest_of_process(pid_t pid) {
   const auto found = keys::digest_of_file(fmt::format("/proc/{}/exe", pid));
@@ -37,8 +38,8 @@ std::string digest_of_process(pid_t pid) {
 
 }  // namespace
 
-ProcessExchange::ProcessExchange(ExchangeContext& context, std::uint32_t module)
-    : context_(context), processes_(context.parts.processes), module_(module) {}
+ProcessExchange::ProcessExchange(ExchangeContext& context, std::uint32_t module, bool held)
+    : VersionExchange(context, module, held), processes_(context.parts.processes) {}
 
 void ProcessExchange::begin(const operate::ReloadRequest& request) {
   request_ = request;
@@ -84,7 +85,10 @@ void ProcessExchange::go_on(rt::MonoTime now) {
 void ProcessExchange::prepared() {
   const Candidate candidate = preparation_->take();
   preparation_.reset();
-  if (is_wanted(candidate)) {
+  if (is_given_up_) {
+    answer(CommandResult::Failed, kGivenUp);
+    step_ = Step::Over;
+  } else if (is_wanted(candidate)) {
     launch();
   } else {
     step_ = Step::Over;
@@ -158,7 +162,7 @@ void ProcessExchange::compare(rt::MonoTime now) {
     answer(CommandResult::Refused, "values would be lost; --lossy exchanges it nevertheless");
     leave(now);
   } else {
-    follow_in_ = next_macro_period(context_);
+    follow_in_ = held_ ? std::numeric_limits<std::uint64_t>::max() : next_macro_period(context_);
     step_ = Step::Ready;
   }
 }
@@ -184,6 +188,9 @@ void ProcessExchange::await_follow(rt::MonoTime now) {
   const pid_t former = processes_.pid(module_);
   if (slot().followed.load(std::memory_order_acquire) == other_.pid) {
     note_exchanged(now);
+    if (is_given_up_) {
+      go_back(Exchange::Reason::Command, now);
+    }
   } else if (has_ended(other_) || now > deadline_) {
     // It may have taken the place already, and not more.
     slot().may_follow.store(former);
@@ -200,19 +207,24 @@ void ProcessExchange::swap() {
 }
 
 void ProcessExchange::note_exchanged(rt::MonoTime now) {
+  if (record().version.load() == 0) {
+    rt::copy_text(record().digests[1], digest_);
+    record().version.store(1);
+  }
   swap();
+  runs_new_ = true;
   slot().successor.store(0);
   report_.tick = slot().follow_tick.load() + 1;
   report_.left_out = record().skipped.load() - skipped_before_;
   const std::int64_t two_periods = 2 * record().period_ns / context_.parts.run.basic_period_ns;
   judged_from_ = report_.tick + static_cast<std::uint64_t>(two_periods) + 1;
-  set_version(request_.health_ns > 0 ? VersionState::Watched : VersionState::Settled);
+  set_version(is_judged() ? VersionState::Watched : VersionState::Settled, digest_);
   context_.parts.console.info("module {}: version {} ({}) is process {}, since tick {}: {} runs left out",
                               record().name, record().version.load(), short_digest(digest_), processes_.pid(module_),
                               report_.tick, report_.left_out);
   answer(CommandResult::Done,
          report_.plan.with_state ? "exchanged, with what it keeps" : "exchanged, with initial values");
-  deadline_ = now + std::chrono::nanoseconds(request_.health_ns);
+  deadline_ = held_ ? rt::MonoTime::max() : now + std::chrono::nanoseconds(request_.health_ns);
   step_ = Step::Watched;
 }
 
@@ -223,7 +235,7 @@ std::optional<Exchange::Reason> ProcessExchange::fault() const {
   if (guard_ && !guard_->holds(context_.parts.store)) {
     return Exchange::Reason::Guard;
   }
-  if (record().overruns.load() > overruns_before_ && request_.health_ns > 0) {
+  if (record().overruns.load() > overruns_before_ && is_judged()) {
     return Exchange::Reason::Overrun;
   }
   return std::nullopt;
@@ -243,9 +255,30 @@ void ProcessExchange::check_health(rt::MonoTime now) {
   }
 }
 
+void ProcessExchange::settle() {
+  if (step_ == Step::Watched) {
+    record().version_state.store(VersionState::Settled);
+    leave(rt::MonoClock::now());
+  }
+}
+
 void ProcessExchange::go_back() {
-  answered_ = false;
-  go_back(Exchange::Reason::Command, rt::MonoClock::now());
+  const rt::MonoTime now = rt::MonoClock::now();
+  switch (step_) {
+    case Step::Preparing:
+    case Step::Following:
+      is_given_up_ = true;
+      return;
+    case Step::Starting:
+    case Step::Ready:
+      return abort(kGivenUp, now);
+    case Step::Watched:
+      return go_back(Exchange::Reason::Command, now);
+    case Step::Returning:
+    case Step::Ending:
+    case Step::Over:
+      return;
+  }
 }
 
 void ProcessExchange::go_back(Exchange::Reason reason, rt::MonoTime now) {
@@ -264,7 +297,8 @@ void ProcessExchange::await_return(rt::MonoTime now) {
     swap();
     report_.tick = slot().follow_tick.load() + 1;
     report_.left_out = record().skipped.load() - skipped_before_;
-    report_return();
+    runs_new_ = false;
+    report_return(reason_, digest_, fmt::format("the previous one, is process {} again", processes_.pid(module_)));
     leave(now);
   } else if (has_ended(other_) || now > deadline_) {
     const std::string why = other_.pid > 0 ? "it does not follow" : describe_end(other_.status);
@@ -273,23 +307,6 @@ void ProcessExchange::await_return(rt::MonoTime now) {
     record().version_state.store(VersionState::Settled);
     leave(now);
   }
-}
-
-// The report comes first: a client that sees the version's state reads it.
-void ProcessExchange::report_return() {
-  const std::string why = text_of(reason_, record());
-  report_.text = "the previous version runs again: " + why;
-  report_.version = record().version.load() + 1;
-  (void)operate::write_report(context_.parts.node, report_);
-  if (reason_ != Exchange::Reason::Command) {  // that one is noted by its client
-    operate::note(context_.parts.node, {rt::to_ns(context_.parts.store.now()), 0, "the node", "", "reload --back",
-                                        record().name, "sha256:" + digest_, 0, why});
-  }
-  set_version(VersionState::Returned);
-  context_.parts.console.warning("module {}: version {} ({}), the previous one, is process {} again since tick {}: {}",
-                                 record().name, record().version.load(), short_digest(digest_), processes_.pid(module_),
-                                 report_.tick, why);
-  answer(CommandResult::Done, report_.text);
 }
 
 void ProcessExchange::leave(rt::MonoTime now) {
@@ -318,29 +335,6 @@ void ProcessExchange::await_end(rt::MonoTime now) {
 void ProcessExchange::abort(const std::string& why, rt::MonoTime now) {
   answer(CommandResult::Failed, why);
   leave(now);
-}
-
-void ProcessExchange::answer(CommandResult result, const std::string& text) {
-  if (std::exchange(answered_, true)) {
-    return;
-  }
-  report_.text = text;
-  report_.version = record().version.load();
-  (void)operate::write_report(context_.parts.node, report_);
-  scheduler::answer_command(record(), result);
-  if (result == CommandResult::Refused || result == CommandResult::Failed) {
-    context_.parts.console.warning("module {}: not exchanged: {}", record().name, text);
-  }
-}
-
-void ProcessExchange::set_version(VersionState state) {
-  scheduler::ModuleRecord& module = record();
-  const std::uint64_t before = std::max<std::uint64_t>(module.version.load(), 1);
-  rt::copy_text(module.digests[before % 2], other_.digest);
-  rt::copy_text(module.digests[(before + 1) % 2], digest_);
-  module.version_tick.store(report_.tick);
-  module.version_state.store(state);
-  module.version.store(before + 1, std::memory_order_release);
 }
 
 void ProcessExchange::end() {

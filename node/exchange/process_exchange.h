@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The exchange of one process module while the node runs: a process with the new file is launched next to the one that
-// runs, follows it between two runs, and is watched for a while, in which the previous one waits. Called by the thread
-// that supervises the node.
+// runs, and the previous one waits while it is watched.
 
 #pragma once
 
@@ -13,30 +12,32 @@
 #include <optional>
 #include <string>
 
-#include "node/exchange/module_exchange.h"
+#include "node/exchange/candidate_thread.h"
+#include "node/exchange/guard_condition.h"
+#include "node/exchange/version_exchange.h"
 #include "store/tape/process_keyframes.h"
 
 namespace indurop::node {
 
-class ProcessExchange {
+class ProcessExchange : public VersionExchange {
  public:
-  ProcessExchange(ExchangeContext& context, std::uint32_t module);
-  ProcessExchange(const ProcessExchange&) = delete;
-  ProcessExchange& operator=(const ProcessExchange&) = delete;
-  ~ProcessExchange() = default;
+  ProcessExchange(ExchangeContext& context, std::uint32_t module, bool held);
 
-  void begin(const operate::ReloadRequest& request);
-  // Continues it.
-  void go_on(rt::MonoTime now);
-  // By command, while it is watched: the previous process is to run again.
-  void go_back();
-  // The node ends; the process that runs has been ended.
-  void end();
+  void begin(const operate::ReloadRequest& request) override;
+  void go_on(rt::MonoTime now) override;
+  void go_back() override;
+  void end() override;
 
-  [[nodiscard]] bool is_over() const noexcept { return step_ == Step::Over; }
-  // Returns true if the new process runs, and the previous one is ready.
-  [[nodiscard]] bool is_watched() const noexcept { return step_ == Step::Watched; }
-  [[nodiscard]] bool has_answered() const noexcept { return answered_; }
+  // Processes do not stop at a tick: the new one follows after the first run that ends after it.
+  void enter(std::uint64_t tick) override { follow_in_ = tick; }
+  void settle() override;
+  [[nodiscard]] bool is_ready() const noexcept override { return step_ == Step::Ready; }
+  [[nodiscard]] bool has_exchanged() const noexcept override { return step_ == Step::Watched; }
+  [[nodiscard]] bool runs_new() const noexcept override { return runs_new_; }
+  [[nodiscard]] bool is_over() const noexcept override { return step_ == Step::Over; }
+  [[nodiscard]] bool is_prepared() const noexcept override { return step_ >= Step::Ready; }
+  [[nodiscard]] bool is_watched() const noexcept override { return step_ == Step::Watched; }
+  [[nodiscard]] bool is_open() const noexcept override { return false; }
 
  private:
   enum class Step {
@@ -68,31 +69,26 @@ class ProcessExchange {
   void let_follow(rt::MonoTime now);
   void await_follow(rt::MonoTime now);
   void note_exchanged(rt::MonoTime now);
+  // An overrun is a reason to return.
+  [[nodiscard]] bool is_judged() const noexcept { return held_ || request_.health_ns > 0; }
   // Why the process that runs is not a good one.
   [[nodiscard]] std::optional<scheduler::Exchange::Reason> fault() const;
   void check_health(rt::MonoTime now);
   void go_back(scheduler::Exchange::Reason reason, rt::MonoTime now);
   void await_return(rt::MonoTime now);
-  void report_return();
   // Ends the other process.
   void leave(rt::MonoTime now);
   void await_end(rt::MonoTime now);
   void abort(const std::string& why, rt::MonoTime now);
-  void answer(scheduler::CommandResult result, const std::string& text);
-  void set_version(scheduler::VersionState state);
   // The other one runs from now on, and the one that ran becomes the other one.
   void swap();
   [[nodiscard]] bool has_ended(Other& other) const;
-  [[nodiscard]] scheduler::ModuleRecord& record() const noexcept { return context_.parts.run.modules()[module_]; }
   [[nodiscard]] scheduler::ProcessSlot& slot() const noexcept { return context_.parts.run.process_slots()[module_]; }
 
-  ExchangeContext& context_;
   Processes& processes_;
-  std::uint32_t module_;
   Step step_ = Step::Preparing;
-  operate::ReloadRequest request_;
-  operate::ReloadReport report_;
-  bool answered_ = false;
+  bool runs_new_ = false;
+  bool is_given_up_ = false;
   std::optional<GuardCondition> guard_;
   std::unique_ptr<CandidateThread> preparation_;
   Other other_;

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <string_view>
+
 #include "agents_fixture.h"
 #include "scheduler/run_block.h"
 #include "store/vars/run_file.h"
@@ -20,7 +22,11 @@ class ExchangeTest : public AgentsTest {
   void bring(const std::string& name, const std::string& version) const {
     const std::filesystem::path to = folder() / ("press_" + name + ".so");
     std::filesystem::remove(to);
-    std::filesystem::copy_file(std::filesystem::path(EXCHANGED_FOLDER) / (version + ".so"), to);
+    const bool is_process = version.starts_with("process");
+    std::filesystem::copy_file(std::filesystem::path(EXCHANGED_FOLDER) / (version + (is_process ? ".exe" : ".so")), to);
+  }
+  [[nodiscard]] const char* type_of(std::string_view name, std::string_view module) const {
+    return press_b_is_process_ && name == "b" && module == "press" ? "process" : "thread";
   }
   // Both boards; `more`: elements of all modules besides.
   [[nodiscard]] std::string plant(const std::string& period = "10ms", const std::string& more = "") const {
@@ -30,8 +36,9 @@ class ExchangeTest : public AgentsTest {
       out << "<board name=\"" << board(name) << "\">\n";
       for (const auto& [module, priority] : {std::pair{"press", 1}, std::pair{"ticks", 2}}) {
         out << "<module><name>" << module << "</name><filename>./" << module << "_" << name
-            << ".so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype><period>" << period
-            << "</period><priority>" << priority << "</priority><budget>1s</budget>" << more << "</module>\n";
+            << ".so</filename><moduletype>" << type_of(name, module)
+            << "</moduletype><operationtype>periodic</operationtype><period>" << period << "</period><priority>"
+            << priority << "</priority><budget>1s</budget>" << more << "</module>\n";
       }
       out << "</board>\n";
     }
@@ -116,6 +123,7 @@ class ExchangeTest : public AgentsTest {
     return {};
   }
 
+  bool press_b_is_process_ = false;
   std::string first_;                  // id
   std::map<std::string, pid_t> pids_;  // of the nodes that run it
 };

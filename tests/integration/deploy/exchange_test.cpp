@@ -66,6 +66,30 @@ TEST_F(Exchange, A_rollback_goes_back_on_all_boards_with_what_the_new_versions_k
   EXPECT_LT(std::abs(press("a").since_ns - press("b").since_ns), press("a").period_ns / 2) << "not in one tick";
 }
 
+TEST_F(Exchange, A_process_is_exchanged_with_what_it_keeps_and_goes_back) {
+  press_b_is_process_ = true;
+  start_plant("process_first");
+  bring("a", "press_a_second");
+  bring("b", "process_second");
+  const std::int64_t before = number("b", "turns");
+  const Outcome done = deploy(plant());
+  ASSERT_EQ(done.code, 0) << done.err << agent("b").err();
+  EXPECT_EQ(planned(done.json(), "a", "press"), "exchanged with state");
+  EXPECT_EQ(planned(done.json(), "b", "press"), "exchanged with state") << done.out;
+  EXPECT_TRUE(shows("b", -1));
+  EXPECT_GT(number("b", "turns"), before);
+  EXPECT_TRUE(both_run(done.json()["deployment"]));
+  expect_untouched("a");
+  expect_untouched("b");
+  const std::int64_t since = number("b", "turns");
+  EXPECT_EQ(indurop({"rollback", "--health", "300ms"}).code, 0);
+  EXPECT_TRUE(shows("b", 1));
+  EXPECT_GT(number("b", "turns"), since);
+  EXPECT_TRUE(both_run(first_));
+  expect_untouched("a");
+  expect_untouched("b");
+}
+
 TEST_F(Exchange, Only_the_board_whose_file_differs_exchanges_it_and_both_commit) {
   start_plant();
   bring("b", "press_b_second");

@@ -23,6 +23,7 @@ constexpr std::int64_t kSign = -1;
 
 }  // namespace
 
+#ifndef PRESS_AS_PROCESS
 void onStart() {
 #if defined(PRESS_BAD_START)
   throw std::runtime_error("no oil");
@@ -33,6 +34,7 @@ void onStart() {
   }
 #endif
 }
+#endif
 
 void onRun() {
   ++strokes;
@@ -52,4 +54,17 @@ void onRun() {
 }
 
 INDUROP_STATE(strokes)
+
+#ifdef PRESS_AS_PROCESS
+int main() {
+  if (irp::initPeriodExe() < 0) {
+    return 1;
+  }
+  while (irp::waitPeriod()) {
+    onRun();
+  }
+  return 0;
+}
+#else
 INDUROP_MODULE(run = &::onRun, start = &::onStart)
+#endif

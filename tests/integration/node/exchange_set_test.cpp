@@ -6,6 +6,8 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "node_fixture.h"
 #include "scheduler/module_command.h"
@@ -26,8 +28,7 @@ class SeveralModules : public NodeTest {
     // Another file, with another digest, and the same code.
     std::filesystem::copy_file(std::filesystem::path(MODULE_DIR) / "counter.so", copy());
     std::ofstream(copy(), std::ios::app) << "another version";
-    start_and_wait({{.file = "counter.so", .name = "other", .priority = 1},
-                    {.file = "reload_same.so", .name = "press", .priority = 2}});
+    start_and_wait(modules());
     ASSERT_TRUE(runs_reach("press", 50));
     auto file = vars::RunFile::open(node(), vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
     ASSERT_TRUE(file);
@@ -37,6 +38,10 @@ class SeveralModules : public NodeTest {
     run_.reset();
     NodeTest::TearDown();
     ::unsetenv("INDUROP_STATE_DIR");
+  }
+  virtual std::vector<Module> modules() {
+    return {{.file = "counter.so", .name = "other", .priority = 1},
+            {.file = "reload_same.so", .name = "press", .priority = 2}};
   }
   [[nodiscard]] std::string copy() const { return folder() / "counter_copy.so"; }
   static std::string built(const std::string& version) {
@@ -186,6 +191,98 @@ TEST_F(SeveralModules, Another_exchange_waits_for_its_end) {
   ASSERT_TRUE(comes_to(State::Exchanged));
   programs_.back()->signal(SIGTERM);
   EXPECT_EQ(programs_.back()->wait(), 0) << "the node may end at any time: " << programs_.back()->err();
+}
+
+class WithAProcess : public SeveralModules {
+ protected:
+  void SetUp() override {
+    SeveralModules::SetUp();
+    std::filesystem::copy_file(std::filesystem::path(MODULE_DIR) / "process.exe", next());
+    std::ofstream(next(), std::ios::app) << "another version";
+    ASSERT_TRUE(runs_reach("process", 20));
+  }
+  std::vector<Module> modules() override {
+    std::vector<Module> all = SeveralModules::modules();
+    all.push_back({.file = "process.exe",
+                   .name = "process",
+                   .type = "process",
+                   .period = "2ms",
+                   .priority = 3,
+                   .more = "<restart max=\"0\"/><argument>count</argument>"});
+    return all;
+  }
+  [[nodiscard]] std::string next() const { return folder() / "next.exe"; }
+  pid_t pid() { return module("process").pid.load(); }
+  void prepare_all(const std::string& process) {
+    ASSERT_EQ(
+        request({Act::Prepare, "second", {{"other", copy()}, {"press", built("other")}, {"process", process}}, 0}),
+        CommandResult::Done);
+  }
+  // Every run that the node counts was executed by one process, and none twice.
+  void expect_each_run_once() {
+    EXPECT_EQ(module("process").state.load(), scheduler::ModuleState::Running);
+    EXPECT_TRUE(runs_reach("process", module("process").runs.load() + 20));
+    EXPECT_TRUE(wait_until([&] {
+      const std::uint64_t before = module("process").runs.load();
+      const std::uint64_t executed = value<std::uint32_t>("nt::process_runs");
+      return executed == before + 1 || executed == before;  // the node counts a run at the release after it
+    }));
+  }
+};
+
+TEST_F(WithAProcess, It_follows_after_the_tick_and_stays) {
+  prepare_all(next());
+  ASSERT_TRUE(comes_to(State::Ready)) << report().problem;
+  const pid_t before = pid();
+  exchange();
+  ASSERT_TRUE(comes_to(State::Exchanged)) << report().problem;
+  EXPECT_NE(pid(), before);
+  EXPECT_GE(module("process").version_tick.load(), tick_);
+  EXPECT_EQ(module("press").version_tick.load(), tick_);
+  EXPECT_EQ(::kill(before, 0), 0) << "it is ready to return";
+  ASSERT_EQ(request({Act::Decide, "second", {}, 0}), CommandResult::Done);
+  ASSERT_TRUE(comes_to(State::None));
+  EXPECT_EQ(module("process").version_state.load(), scheduler::VersionState::Settled);
+  EXPECT_NE(::kill(before, 0), 0);
+  expect_each_run_once();
+  expect_all_counted();
+}
+
+TEST_F(WithAProcess, It_returns_with_the_others) {
+  const pid_t before = pid();
+  for (const bool dies : {false, true}) {
+    prepare_all(next());
+    ASSERT_TRUE(comes_to(State::Ready)) << report().problem;
+    exchange(100);
+    ASSERT_TRUE(comes_to(State::Exchanged)) << report().problem;
+    if (dies) {
+      ASSERT_EQ(::kill(pid(), SIGKILL), 0);
+    } else {
+      ASSERT_EQ(request({Act::Decide, "", {}, 0}), CommandResult::Done);
+    }
+    ASSERT_TRUE(comes_to(State::Undone));
+    EXPECT_EQ(pid(), before);
+    EXPECT_STREQ(block().deployment, "");
+    EXPECT_GT(value<std::int64_t>("nt::walked"), 0);
+    EXPECT_EQ(module("process").state.load(), scheduler::ModuleState::Running);
+    EXPECT_TRUE(runs_reach("process", module("process").runs.load() + 20));
+  }
+}
+
+TEST_F(WithAProcess, One_that_cannot_run_or_is_given_up_prevents_all) {
+  const pid_t before = pid();
+  prepare_all("/bin/true");
+  ASSERT_TRUE(comes_to(State::Undone));
+  EXPECT_CONTAINS(report().problem, "exited with code 0 before it called irp::waitPeriod()");
+  EXPECT_EQ(module("press").version.load(), 1U);
+  prepare_all(next());
+  ASSERT_TRUE(comes_to(State::Ready)) << report().problem;
+  exchange(100'000);
+  ASSERT_EQ(request({Act::Decide, "", {}, 0}), CommandResult::Done);
+  ASSERT_TRUE(comes_to(State::Undone));
+  EXPECT_EQ(pid(), before);
+  expect_each_run_once();
+  expect_all_counted();
 }
 
 }  // namespace

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "node/exchange/version_exchange.h"
+
+#include <fmt/format.h>
+
+#include "core/rt/clock.h"
+#include "core/rt/copy_text.h"
+#include "node/exchange/schedule_change.h"
+#include "node/exchange/version_text.h"
+#include "store/operate/journal.h"
+
+namespace indurop::node {
+
+using scheduler::CommandResult;
+using scheduler::Exchange;
+
+void ExchangeContext::offer_to_track(std::uint32_t module, const ModuleLibrary& version) const {
+  if (track_of(module) == nullptr) {
+    return;
+  }
+  std::vector<tape::VariableUse> uses;
+  for (const auto& [name, use] : version.uses()) {
+    // The place that now has the name of a variable whose type changes is not the one that this version uses.
+    const vars::DirectoryEntry* const entry = parts.store.find(name);
+    if (entry != nullptr && entry->type_hash == use.type) {
+      uses.push_back({static_cast<std::uint32_t>(entry - parts.store.directory().data()), use.reads, use.writes});
+    }
+  }
+  for (const std::uint32_t variable : parts.tape->offer(module, uses)) {
+    parts.console.warning("{} is too large for the tape of module {} and is not recorded until the node starts again",
+                          parts.store.schema().variables[parts.store.directory()[variable].schema_index].name,
+                          parts.config.modules[module].name);
+  }
+  track_of(module)->set_other_version(version.number());
+}
+
+void ExchangeContext::set_on_track(std::uint32_t module, const ModuleLibrary& version) const {
+  if (tape::Track* const track = track_of(module); track != nullptr) {
+    offer_to_track(module, version);
+    track->take_offered();
+    track->set_version(version.number());
+  }
+}
+
+std::uint64_t next_macro_period(const ExchangeContext& context) {
+  return next_in(context.schedule->grid(), context.parts.run.tick.load());
+}
+
+void VersionExchange::answer(CommandResult result, const std::string& text) {
+  if (result_) {
+    return;
+  }
+  result_ = result;
+  report_.text = text;
+  report_.version = record().version.load();
+  if (!held_) {
+    (void)operate::write_report(context_.parts.node, report_);
+    scheduler::answer_command(record(), result);
+  }
+  if (result == CommandResult::Refused || result == CommandResult::Failed) {
+    context_.parts.console.warning("module {}: not exchanged: {}", record().name, text);
+  }
+}
+
+void VersionExchange::set_version(scheduler::VersionState state, const std::string& digest) {
+  scheduler::ModuleRecord& module = record();
+  const std::uint64_t number = module.version.load() + 1;
+  rt::copy_text(module.digests[number % 2], digest);
+  module.version_tick.store(report_.tick);
+  module.version_state.store(state);
+  module.version.store(number, std::memory_order_release);
+}
+
+void VersionExchange::report_return(Exchange::Reason reason, const std::string& digest, const std::string& who) {
+  const std::string why = text_of(reason, record());
+  report_.text = "the previous version runs again: " + why;
+  report_.version = record().version.load() + 1;
+  if (!held_) {
+    (void)operate::write_report(context_.parts.node, report_);
+  }
+  if (reason != Exchange::Reason::Command) {  // that one is noted by its client
+    operate::note(context_.parts.node, {rt::to_ns(context_.parts.store.now()), 0, "the node", "", "reload --back",
+                                        record().name, "sha256:" + digest, 0, why});
+  }
+  set_version(scheduler::VersionState::Returned, digest);
+  context_.parts.console.warning("module {}: version {} ({}), {} since tick {}: {}", record().name,
+                                 record().version.load(), short_digest(digest), who, report_.tick, why);
+  answer(CommandResult::Done, report_.text);
+}
+
+}  // namespace indurop::node
