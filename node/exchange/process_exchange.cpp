@@ -113,11 +113,6 @@ bool ProcessExchange::is_wanted(const Candidate& candidate) {
   return false;
 }
 
-std::optional<std::string> ProcessExchange::form_of(tape::ProcessKeyframes::Of of) const {
-  const auto kept = tape::ProcessKeyframes::open(context_.parts.node, module_, context_.parts.run.node_pid.load(), of);
-  return kept ? std::optional(kept->form()) : std::nullopt;
-}
-
 void ProcessExchange::launch() {
   tape::ProcessKeyframes::remove(context_.parts.node, module_, tape::ProcessKeyframes::Of::Next);
   const auto launched = processes_.launch_next_to(module_, other_.file);
@@ -155,8 +150,18 @@ void ProcessExchange::await_ready(rt::MonoTime now) {
 
 // What both processes keep is known now.
 void ProcessExchange::compare(rt::MonoTime now) {
-  const Carry carry =
-      plan_carry(form_of(tape::ProcessKeyframes::Of::Running), form_of(tape::ProcessKeyframes::Of::Next));
+  using tape::ProcessKeyframes;
+  const auto open = [this](ProcessKeyframes::Of of) {
+    return ProcessKeyframes::open(context_.parts.node, module_, context_.parts.run.node_pid.load(), of);
+  };
+  const auto form_of = [](const Result<ProcessKeyframes>& kept) {
+    return kept ? std::optional(kept->form()) : std::nullopt;  // it does not declare it
+  };
+  const auto next = open(ProcessKeyframes::Of::Next);
+  if (next && request_.lossy) {
+    next->words().lossy.store(1);
+  }
+  const Carry carry = plan_carry(form_of(open(ProcessKeyframes::Of::Running)), form_of(next));
   report_.plan = carry.plan;
   if (carry.loses && !request_.lossy) {
     answer(CommandResult::Refused, "values would be lost; --lossy exchanges it nevertheless");

@@ -62,8 +62,6 @@ class ProcessExchange : public VersionExchange {
   // Returns false if it was answered that nothing is exchanged.
   bool is_wanted(const Candidate& candidate);
   void launch();
-  // What a process of this module keeps; nothing: it does not declare it.
-  [[nodiscard]] std::optional<std::string> form_of(tape::ProcessKeyframes::Of of) const;
   void compare(rt::MonoTime now);
   void await_ready(rt::MonoTime now);
   void let_follow(rt::MonoTime now);

@@ -93,7 +93,7 @@ void Enrolment::follow() {
   wait_for_hand_over(other, theirs ? &theirs.value() : nullptr);
   if (kept_ && theirs) {
     const bool written = theirs->words().hand_over.load(std::memory_order_acquire) == HandOver::Written;
-    if (!(written && kept_->take_over(*theirs)) && !returns) {
+    if (!(written && kept_->take_over(*theirs)) && !returns && !kept_->may_lose()) {
       std::fprintf(stderr, "indurop: what the process before this one keeps cannot be taken over; this one ends\n");
       end_wanted_ = true;
       exit_code_ = kFailed;

@@ -37,6 +37,8 @@ class KeptThread {
   // Instead of start() if the process follows another one: puts back what that one has handed over, by name and type.
   // Before start(). Returns false if it does not fit.
   bool take_over(const tape::ProcessKeyframes& from);
+  // The node allows that something is lost.
+  [[nodiscard]] bool may_lose() const noexcept { return file_.words().lossy.load() != 0; }
   // Another process follows, and this one executes no run: writes what it keeps, and answers nothing from here on.
   void hand_over();
 

@@ -30,6 +30,7 @@ struct KeyframeRequestWords {
   std::atomic<std::uint32_t> puts_back;  // 1: what is in the room is put back; 0: a keyframe is written
   std::atomic<std::uint32_t> done;       // 0: it was not possible, because a run was being executed
   std::atomic<HandOver> hand_over;       // Written: the newest keyframe has what it kept
+  std::atomic<std::uint32_t> lossy;      // 1: the process may follow although it cannot take over everything
 };
 
 class ProcessKeyframes {

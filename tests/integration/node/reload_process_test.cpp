@@ -161,6 +161,20 @@ TEST_F(ReloadProcess, What_a_process_keeps_goes_to_the_next_one_and_back) {
   }
 }
 
+TEST_F(ReloadProcess, What_cannot_be_taken_over_is_lost_if_that_is_allowed) {
+  start_and_wait({process("rambler_process.exe", "")});
+  ASSERT_TRUE(runs_reach("process", 200));
+  int number = 0;
+  for (const char* const file : {"rambler_by_process.exe", "rambler_process.exe"}) {
+    const Outcome done = reload({"process", version(++number, file), "--lossy", "--health", "0s"});
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_CONTAINS(done.err, "exchanged, with initial values");
+    EXPECT_CONTAINS(done.out, "lost      all that it keeps");
+    EXPECT_TRUE(runs_more());
+    EXPECT_LT(value<std::int64_t>("nt::walked"), walked_after(module("process").runs.load()));
+  }
+}
+
 // Whatever moment it is, one process runs afterwards, and continues with what one of the two has kept.
 TEST_F(ReloadProcess, A_new_process_that_is_killed_at_any_moment_leaves_one_that_continues) {
   constexpr int kTimes = 12;
