@@ -217,8 +217,8 @@ def compile_driver(build, folder, programs, optimize):
             text = code.read()
         file.write(driver_text("batch", programs, "void start() {" in text, "Image shared;" in text))
     compiler = os.environ.get("CXX") or "g++"
-    memory = [f"{ROOT}/{name}.cpp" for name in ("node/modules/module_memory", "node/modules/grown_array",
-                                                "node/modules/relocation", "store/tape/state_copy")]
+    memory = [f"{ROOT}/{name}.cpp" for name in ("node/modules/module_memory", "node/modules/relocation", "store/tape/grown_array",
+                                                "store/tape/state_copy", "store/tape/state_form")]
     checked_call([compiler, *FLAGS, optimize, f"-I{ROOT}", f"-isystem{build}/include", "-isystem.", "driver.cpp", *memory,
                   "-o", "driver", f"-L{build}/lib", "-lindurop", "-lindurop_rt", "-lindurop_rt_posix", "-lfmt",
                   f"-Wl,-rpath,{build}/lib"], folder)
