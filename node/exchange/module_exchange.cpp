@@ -15,7 +15,6 @@ using scheduler::CommandResult;
 using scheduler::ModuleState;
 
 constexpr std::chrono::seconds kStartLimit{10};  // for start() of a new version
-constexpr const char* kGivenUp = "the exchange was given up";
 constexpr const char* kRunsNoMore = "the version that runs has faulted or was stopped meanwhile";
 
 }  // namespace
@@ -26,17 +25,9 @@ bool ModuleExchange::is_open() const noexcept {
 }
 
 void ModuleExchange::begin(const operate::ReloadRequest& request) {
-  request_ = request;
-  report_.module = record().name;
-  report_.from = running().digest();
-  if (!request_.guard.empty()) {
-    auto guard = GuardCondition::parse(request_.guard, context_.parts.store);
-    if (!guard) {
-      answer(CommandResult::Refused, guard.error().text);
-      step_ = Step::Over;
-      return;
-    }
-    guard_ = std::move(guard).value();
+  if (!accept(request, running().digest())) {
+    step_ = Step::Over;
+    return;
   }
   preparation_ = std::make_unique<CandidateThread>(CandidateTask{
       context_.parts.config, module_,

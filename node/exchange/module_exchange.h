@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "node/exchange/candidate_thread.h"
-#include "node/exchange/guard_condition.h"
 #include "node/exchange/version_exchange.h"
 
 namespace indurop::node {
@@ -68,7 +67,6 @@ class ModuleExchange : public VersionExchange {
 
   Step step_ = Step::Preparing;
   bool back_ = false;  // to the previous version
-  std::optional<GuardCondition> guard_;
   std::unique_ptr<CandidateThread> preparation_;
   Phases::CallPointer call_{nullptr, [](Phases::Call* /*none*/) {}};
   rt::MonoTime deadline_{};  // of this step, in the node's time

@@ -29,7 +29,7 @@ constexpr std::chrono::seconds kFollowLimit{5};  // in addition to two periods
 constexpr std::chrono::milliseconds kAsked{500};
 constexpr std::chrono::seconds kGrace{2};
 constexpr std::chrono::milliseconds kPoll{1};
-constexpr const char* kGivenUp = "the exchange was given up";
+constexpr const char* kRunsNoMore = "the process that runs has faulted or was stopped meanwhile";
 
 std::string digest_of_process(pid_t pid) {
   const auto found = keys::digest_of_file(fmt::format("/proc/{}/exe", pid));
@@ -42,18 +42,10 @@ ProcessExchange::ProcessExchange(ExchangeContext& context, std::uint32_t module,
     : VersionExchange(context, module, held), processes_(context.parts.processes) {}
 
 void ProcessExchange::begin(const operate::ReloadRequest& request) {
-  request_ = request;
-  report_.module = record().name;
   digest_ = digest_of_process(processes_.pid(module_));
-  report_.from = digest_;
-  if (!request_.guard.empty()) {
-    auto guard = GuardCondition::parse(request_.guard, context_.parts.store);
-    if (!guard) {
-      answer(CommandResult::Refused, guard.error().text);
-      step_ = Step::Over;
-      return;
-    }
-    guard_ = std::move(guard).value();
+  if (!accept(request, digest_)) {
+    step_ = Step::Over;
+    return;
   }
   other_.file = request_.file.empty() ? context_.files[module_] : std::filesystem::path(request_.file);
   preparation_ =
@@ -140,7 +132,7 @@ void ProcessExchange::await_ready(rt::MonoTime now) {
   if (has_ended(other_)) {
     abort(describe_end(other_.status) + " before it called irp::waitPeriod()", now);
   } else if (record().state.load() != ModuleState::Running) {
-    abort("the process that runs has faulted or was stopped meanwhile", now);
+    abort(kRunsNoMore, now);
   } else if (slot().ready.load(std::memory_order_acquire) == other_.pid) {
     compare(now);
   } else if (now > deadline_) {
@@ -176,7 +168,7 @@ void ProcessExchange::let_follow(rt::MonoTime now) {
   if (has_ended(other_)) {
     abort(describe_end(other_.status), now);
   } else if (record().state.load() != ModuleState::Running) {
-    abort("the process that runs has faulted or was stopped meanwhile", now);
+    abort(kRunsNoMore, now);
   } else if (context_.parts.run.tick.load() >= follow_in_) {
     skipped_before_ = record().skipped.load();
     overruns_before_ = record().overruns.load();

@@ -13,7 +13,6 @@
 #include <string>
 
 #include "node/exchange/candidate_thread.h"
-#include "node/exchange/guard_condition.h"
 #include "node/exchange/version_exchange.h"
 #include "store/tape/process_keyframes.h"
 
@@ -87,7 +86,6 @@ class ProcessExchange : public VersionExchange {
   Step step_ = Step::Preparing;
   bool runs_new_ = false;
   bool is_given_up_ = false;
-  std::optional<GuardCondition> guard_;
   std::unique_ptr<CandidateThread> preparation_;
   Other other_;
   std::string digest_;           // of the file of the process that runs

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/rt/clock.h"
 #include "core/rt/copy_text.h"
 #include "node/exchange/schedule_change.h"
@@ -44,6 +46,22 @@ void ExchangeContext::set_on_track(std::uint32_t module, const ModuleLibrary& ve
 
 std::uint64_t next_macro_period(const ExchangeContext& context) {
   return next_in(context.schedule->grid(), context.parts.run.tick.load());
+}
+
+bool VersionExchange::accept(const operate::ReloadRequest& request, const std::string& running) {
+  request_ = request;
+  report_.module = record().name;
+  report_.from = running;
+  if (request_.guard.empty()) {
+    return true;
+  }
+  auto guard = GuardCondition::parse(request_.guard, context_.parts.store);
+  if (!guard) {
+    answer(CommandResult::Refused, guard.error().text);
+    return false;
+  }
+  guard_ = std::move(guard).value();
+  return true;
 }
 
 void VersionExchange::answer(CommandResult result, const std::string& text) {

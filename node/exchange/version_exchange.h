@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "node/exchange/candidate.h"
+#include "node/exchange/guard_condition.h"
 #include "node/exchange/retired.h"
 #include "node/modules/processes.h"
 #include "node/run/console.h"
@@ -105,6 +106,11 @@ class VersionExchange {
   VersionExchange(ExchangeContext& context, std::uint32_t module, bool held)
       : context_(context), module_(module), held_(held) {}
 
+  static constexpr const char* kGivenUp = "the exchange was given up";
+
+  // Takes a request over. `running`: digest of the version that runs. Returns false if it was answered, because its
+  // guard is none.
+  bool accept(const operate::ReloadRequest& request, const std::string& running);
   // The first answer to a command counts.
   void answer(scheduler::CommandResult result, const std::string& text);
   // Another version runs from now on, the one with this digest.
@@ -120,6 +126,7 @@ class VersionExchange {
   bool held_;
   operate::ReloadRequest request_;
   operate::ReloadReport report_;
+  std::optional<GuardCondition> guard_;
   // NOLINTEND(cppcoreguidelines-non-private-member-variables-in-classes,misc-non-private-member-variables-in-classes)
 
  private:
