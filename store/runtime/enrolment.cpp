@@ -176,7 +176,6 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
   phase_ = follows ? Phase::Turn : Phase::Prepared;
   close_records();
   kept_ = KeptThread::prepare(node_, index, run);
-  is_prepared_ = follows;
   if (!follows) {
     open_records();
   }

@@ -82,7 +82,6 @@ class Enrolment {
   std::int32_t enrolled_as_ = 0;  // pid under which the node knows this process
   std::uint64_t seen_ = 0;        // last release handled
   bool running_ = false;
-  bool is_prepared_ = false;  // to follow for the first time: `kept_` is what it will keep
   int exit_code_ = 0;
   bool end_wanted_ = false;
   unsigned idle_ = 0;  // consecutive waits that no release ended

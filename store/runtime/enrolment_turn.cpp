@@ -4,7 +4,6 @@
 // release is lost.
 
 #include <cstdio>
-#include <utility>
 
 #include "core/base/exit_code.h"
 #include "core/rt/clock.h"
@@ -83,8 +82,8 @@ void Enrolment::follow() {
   if (run.virtual_ns.load(std::memory_order_relaxed) == 0) {
     take_priority(run.modules()[module]);
   }
-  const bool returns = !is_prepared_;  // it has values of its own to continue with
-  if (!std::exchange(is_prepared_, false)) {
+  const bool returns = kept_ == nullptr;  // if it keeps anything, it has values of its own to continue with
+  if (returns) {
     kept_ = KeptThread::prepare(node_, module, run);
   }
   const auto theirs = tape::ProcessKeyframes::open(node_, module, run.node_pid.load(std::memory_order_relaxed));
