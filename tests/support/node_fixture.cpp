@@ -173,6 +173,16 @@ void NodeTest::read(const std::string& name, void* to, std::size_t size) const {
   ADD_FAILURE() << "there is no variable " << name;
 }
 
+void NodeTest::expect_each_run_once() {
+  const auto& record = module("process");
+  EXPECT_TRUE(wait_until([&] {
+    const std::uint64_t before = record.runs.load();
+    const std::uint64_t executed = value<std::uint32_t>("nt::process_runs");
+    return executed == before + 1 || executed == before;  // the node counts a run at the release after it
+  })) << value<std::uint32_t>("nt::process_runs")
+      << " of " << record.runs.load();
+}
+
 std::vector<std::string> NodeTest::files_left() const {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator("/dev/shm")) {

@@ -85,6 +85,8 @@ class NodeTest : public ::testing::Test {
     read(name, &result, sizeof result);
     return result;
   }
+  // Every run that the node counts of "process", which is process.exe, was executed by one process, and none twice.
+  void expect_each_run_once();
   [[nodiscard]] std::vector<std::string> files_left() const;
 
   std::vector<std::unique_ptr<Program>> programs_;
