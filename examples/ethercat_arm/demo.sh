@@ -21,7 +21,6 @@ cleanup() {
   rm -f bus.fifo
   for name in $node arm_ladder; do indurop clean --node $name >/dev/null 2>&1 || true; done
 }
-
 value() { indurop get --node $node "$1" 2>/dev/null; }
 show_state() { indurop get --node $node 'CELL::*' ROBOT_JOB ROBOT_MODULE_STATE EMERGENCY_STOP 'BUS::*' I0 I1 I3 I4 I5 I6 O0 O1 O8 O9; }
 # wait_for VARIABLE VALUE SECONDS
