@@ -16,7 +16,7 @@
 namespace indurop::scheduler {
 
 inline constexpr std::uint64_t kRunMagic = 0x314e555255444e49ULL;  // "INDURUN1"
-inline constexpr std::uint32_t kRunAbi = 10;
+inline constexpr std::uint32_t kRunAbi = 11;
 inline constexpr std::size_t kTextLength = 160;
 
 enum class NodeState : std::uint32_t { Starting, Running, Stopping, Stopped, Failed };
@@ -134,14 +134,18 @@ struct ProcessSlot {
   std::atomic<std::uint32_t> stop;          // 1: waitPeriod() must return false / the process should end
   std::atomic<std::uint32_t> module;        // index
   std::atomic<std::int32_t> obtained_fifo;  // priority obtained, 0 none
+  std::atomic<std::uint32_t> version;       // number on the tape of its file; written by the node before it runs
   // The process is exchanged while the node runs: another one follows it between two runs. Process ids, 0: none.
-  rt::SignalWord turn;                     // the node wakes a process that waits for its turn
+  rt::SignalWord turn;                     // wakes the process that follows
+  rt::SignalWord recall;                   // wakes the one that was followed
   std::atomic<std::int32_t> runner;        // began the run `taken`; written by it
   std::atomic<std::int32_t> successor;     // launched next to the one that runs; written by the node
   std::atomic<std::int32_t> ready;         // waits for its turn; written by it
-  std::atomic<std::int32_t> may_follow;    // may take the place of `pid` now; written by the node
-  std::atomic<std::int32_t> followed;      // has done so, after the last run of the other one; written by it
-  std::atomic<std::uint64_t> follow_tick;  // after that of this run; written by the same
+  std::atomic<std::int32_t> may_follow;    // may take the place of `pid`; written by the node
+  std::atomic<std::uint64_t> follow_from;  // tick of its first release; written by the node before `may_follow`
+  std::atomic<std::int32_t> left;          // was `pid` and has given its place away; written by it before that
+  std::atomic<std::int32_t> followed;      // has the place, and what the other one kept; written by it
+  std::atomic<std::uint64_t> follow_tick;  // tick of the newest release then; written by the same before `followed`
   std::atomic<std::int32_t> previous;      // stays ready when it was followed; written by the node
 };
 

@@ -128,6 +128,7 @@ void init_run_block(RunBlock& block, const RunBlockSetup& setup) {
     ProcessSlot& slot = block.process_slots()[i];
     slot.wake.init(true);
     slot.turn.init(true);
+    slot.recall.init(true);
     slot.module.store(static_cast<std::uint32_t>(i), std::memory_order_relaxed);
     init_ring(block.rings()[i], at.messages + i * kModuleMessages * sizeof(MessageEntry), kModuleMessages);
   }

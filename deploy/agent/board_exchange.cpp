@@ -42,8 +42,17 @@ std::map<std::string, std::string> running_versions(const RunBlock& block) {
   return digests;
 }
 
+ModulePlan::Act act_of(const operate::ReloadPlan& plan) noexcept {
+  return !plan.compared                            ? ModulePlan::Act::Open
+         : plan.with_state || plan.why_not.empty() ? ModulePlan::Act::Exchanged
+                                                   : ModulePlan::Act::Fresh;
+}
+
 std::string why_of(const operate::ReloadReport& report) {
   const operate::ReloadPlan& plan = report.plan;
+  if (!plan.compared) {
+    return "what it carries is known when its new process runs";
+  }
   if (!plan.with_state) {
     return plan.why_not.empty() ? "it keeps nothing" : plan.why_not;
   }
@@ -239,8 +248,7 @@ void BoardExchange::describe(const operate::SetReport& report) {
       found->act = ModulePlan::Act::Refused;
       found->why = module.errors.empty() ? module.text : module.errors.front();
     } else {
-      found->act =
-          module.plan.with_state || module.plan.why_not.empty() ? ModulePlan::Act::Exchanged : ModulePlan::Act::Fresh;
+      found->act = act_of(module.plan);
       found->why = why_of(module);
     }
     board_plan_.tick = std::max(board_plan_.tick, module.tick);

@@ -21,6 +21,7 @@ struct PlanWord {
 constexpr std::array kPlanWords{PlanWord{PlannedAct::Kept, "kept", "kept"},
                                 PlanWord{PlannedAct::Exchanged, "exchanged", "exchanged with state"},
                                 PlanWord{PlannedAct::Fresh, "fresh", "exchanged fresh"},
+                                PlanWord{PlannedAct::Open, "open", "exchanged"},
                                 PlanWord{PlannedAct::Rescheduled, "rescheduled", "rescheduled"},
                                 PlanWord{PlannedAct::Added, "added", "added"},
                                 PlanWord{PlannedAct::Ended, "ended", "ended"},
@@ -75,7 +76,7 @@ std::optional<BoardPlan> parse_board_plan(std::string_view text) {
 BoardPlan restarted(BoardPlan plan) {
   for (ModulePlan& module : plan.modules) {
     if (module.act == PlannedAct::Kept || module.act == PlannedAct::Exchanged || module.act == PlannedAct::Fresh ||
-        module.act == PlannedAct::Rescheduled) {
+        module.act == PlannedAct::Open || module.act == PlannedAct::Rescheduled) {
       module = {module.module, PlannedAct::Restarted, ""};
     }
   }

@@ -16,6 +16,7 @@ struct ModulePlan {
     Kept,       // the same file: it goes on
     Exchanged,  // its new version continues with what it keeps
     Fresh,      // its new version begins with its initial values
+    Open,       // its new process will tell whether it continues with what it keeps
     Rescheduled,
     Added,
     Ended,

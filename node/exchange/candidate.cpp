@@ -169,6 +169,15 @@ void keep_files(const CandidateTask& task, Candidate& candidate) {
   }
 }
 
+// The file of the one that runs may have been replaced.
+void keep_programs(const CandidateTask& task, Candidate& candidate) {
+  for (const std::string& file : {fmt::format("/proc/{}/exe", task.process), task.file.string()}) {
+    if (const auto kept = keep_program(task.keep_for, file); !kept) {
+      candidate.notes.push_back(kept.error().text);
+    }
+  }
+}
+
 void check_loaded(const CandidateTask& task, Candidate& candidate) {
   const auto& module = task.config.modules[task.module];
   if (candidate.digest.empty() || candidate.digest != candidate.library.digest()) {
@@ -200,6 +209,9 @@ Candidate make_candidate(const CandidateTask& task) {
   }
   candidate.needs_restart = CandidateCheck(task, candidate).run();
   if (task.config.modules[task.module].type == scheduler::ModuleType::Process) {
+    if (candidate.errors.empty() && !task.keep_for.empty()) {
+      keep_programs(task, candidate);
+    }
     return candidate;
   }
   if (candidate.errors.empty() && task.try_first) {

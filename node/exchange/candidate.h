@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -39,6 +41,7 @@ struct CandidateTask {
   std::span<const ConfiguredUses> configured = {};  // of the same
   std::string keep_for = {};  // node in whose state the files of both versions are kept; empty: they are not
   bool try_first = false;     // see try_module()
+  pid_t process = -1;         // that runs now, of a process module
 };
 
 struct Candidate {

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "core/rt/clock.h"
-#include "core/rt/copy_text.h"
 #include "node/exchange/exchange_kind.h"
 #include "node/exchange/module_exchange.h"
+#include "scheduler/module_version.h"
 
 namespace indurop::node {
 namespace {
@@ -42,8 +42,9 @@ void Exchanges::begin_version(std::uint32_t module) {
     library.set_number(context_.parts.tape->versions().add_first(module, digest, file));
     context_.set_on_track(module, library);
   }
-  rt::copy_text(record(module).digests[1], digest);
-  record(module).version.store(digest.empty() ? 0 : 1);
+  if (!digest.empty()) {  // of a process, it is known when it is launched
+    scheduler::set_version(record(module), digest, 0, scheduler::VersionState::Settled);
+  }
 }
 
 void Exchanges::add(const AllowedAccess& access, ConfiguredUses configured) {

@@ -12,11 +12,10 @@
 namespace indurop::node {
 namespace {
 
-using schema::Comparison;
-
 // Longer symbols first.
-constexpr std::array kComparisons{Comparison::Equal,        Comparison::NotEqual, Comparison::LessEqual,
-                                  Comparison::GreaterEqual, Comparison::Less,     Comparison::Greater};
+constexpr std::array kComparisons{schema::Comparison::Equal,     schema::Comparison::NotEqual,
+                                  schema::Comparison::LessEqual, schema::Comparison::GreaterEqual,
+                                  schema::Comparison::Less,      schema::Comparison::Greater};
 
 base::Problem wrong(std::string_view text, const std::string& why) {
   return {fmt::format("--guard \"{}\": {}; write a number, a comparison (== != < <= > >=) and a value: \"O0 == 0\"",
@@ -26,7 +25,7 @@ base::Problem wrong(std::string_view text, const std::string& why) {
 }  // namespace
 
 Result<GuardCondition, base::Problem> GuardCondition::parse(std::string_view text, const vars::Store& store) {
-  for (const Comparison comparison : kComparisons) {
+  for (const schema::Comparison comparison : kComparisons) {
     const std::string_view symbol = schema::symbol_of(comparison);
     const std::size_t at = text.find(symbol);
     if (at == std::string_view::npos) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exchange of one thread module while the node runs: its new version is loaded and started in this process.
+// The exchange of one thread module of the schedule: from one run to the next, its new version is entered.
 
 #pragma once
 
@@ -9,16 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "node/exchange/candidate_thread.h"
-#include "node/exchange/version_exchange.h"
+#include "node/exchange/thread_exchange.h"
 
 namespace indurop::node {
 
-class ModuleExchange : public VersionExchange {
+class ModuleExchange : public ThreadExchange {
  public:
-  ModuleExchange(ExchangeContext& context, std::uint32_t module, bool held) : VersionExchange(context, module, held) {}
+  ModuleExchange(ExchangeContext& context, std::uint32_t module, bool held) : ThreadExchange(context, module, held) {}
 
-  void begin(const operate::ReloadRequest& request) override;
   // Begins an exchange with the previous version.
   void begin_back(scheduler::Exchange::Reason reason);
   void go_on(rt::MonoTime now) override;
@@ -37,19 +35,16 @@ class ModuleExchange : public VersionExchange {
 
  private:
   enum class Step {
-    Preparing,  // checked and loaded, on a thread of its own
-    Starting,   // start() runs
-    Ready,      // held: waits for its tick
-    Waiting,    // for the run that is the first of the other version
-    Watched,    // it runs; the previous version is ready
-    Leaving,    // the run that may still ask the exchange is in progress
+    Preparing,
+    Ready,    // held: waits for its tick
+    Waiting,  // for the run that is the first of the other version
+    Watched,  // it runs; the previous version is ready
+    Leaving,  // the run that may still ask the exchange is in progress
     Over,
   };
 
+  void go_on_preparing(rt::MonoTime now);
   void prepared();
-  bool is_wanted(Candidate& candidate);
-  void start_other();
-  void started();
   void replace_closed();
   void watch(std::uint64_t tick);
   void wait_for_exchange();
@@ -63,24 +58,19 @@ class ModuleExchange : public VersionExchange {
   void has_left();
   void abort(const std::string& why);
   void discard_other();
-  [[nodiscard]] ModuleLibrary& running() const noexcept { return context_.parts.libraries[module_]; }
+  [[nodiscard]] bool would_run() const noexcept override {
+    return record().state.load() == scheduler::ModuleState::Running;
+  }
 
   Step step_ = Step::Preparing;
-  bool back_ = false;  // to the previous version
-  std::unique_ptr<CandidateThread> preparation_;
-  Phases::CallPointer call_{nullptr, [](Phases::Call* /*none*/) {}};
-  rt::MonoTime deadline_{};  // of this step, in the node's time
-  ModuleLibrary other_;      // the version that does not run
-  Carry carry_;
-  VariableChange variables_;      // that the version which does not run brings
+  bool back_ = false;             // to the previous version
+  rt::MonoTime deadline_{};       // of this step, in the node's time
   std::vector<std::byte> saved_;  // what the running version kept in a gap, if a normal thread copies
   std::size_t saved_bytes_ = 0;
   std::unique_ptr<scheduler::Exchange> exchange_;
   std::uint64_t skipped_before_ = 0;
   std::uint64_t overruns_before_ = 0;
-  bool exchanged_ = false;         // `other_` is the previous version
-  bool other_is_unsound_ = false;  // it was left in the middle of a run
-  std::string failure_;            // why the exchange was given up; empty: it was not
+  bool exchanged_ = false;  // `other_` is the previous version
   std::optional<scheduler::Exchange::Reason> then_back_;
   scheduler::Exchange::Reason reason_ = scheduler::Exchange::Reason::Command;  // of `back_`
 };

@@ -21,7 +21,6 @@ using scheduler::ModuleState;
 using scheduler::VersionState;
 
 constexpr std::chrono::seconds kNoGapFound{5};  // in addition to two periods
-constexpr std::chrono::milliseconds kReplacedPoll{1};
 constexpr int kCopiesInOneGo = 20;
 constexpr const char* kPreviousRuns = "the previous one, runs again";
 
@@ -262,16 +261,7 @@ void ModuleExchange::end() {
   if (is_over()) {
     return;
   }
-  const bool prepared = preparation_ == nullptr;
-  if (!prepared) {
-    (void)preparation_->take();
-  }
-  while (call_ != nullptr && !context_.phases.ended(*call_, rt::MonoClock::now(), Phases::kGrace)) {
-    rt::sleep_until(rt::MonoClock::now() + kReplacedPoll);
-  }
-  if (call_ != nullptr) {
-    other_is_unsound_ = Phases::failure_of(std::move(call_)).has_value();
-  }
+  const bool prepared = end_preparation();
   const bool runs =
       exchange_ != nullptr && exchange_->step() != Exchange::Step::Waiting && exchange_->step() != Exchange::Step::Back;
   if (runs) {

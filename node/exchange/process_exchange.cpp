@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
-#include <limits>
 #include <utility>
 
-#include "core/keys/digest.h"
 #include "core/rt/clock.h"
-#include "core/rt/copy_text.h"
 #include "node/exchange/carry.h"
 #include "node/exchange/version_text.h"
+#include "node/modules/kept_versions.h"
 
 namespace indurop::node {
 namespace {
@@ -31,26 +29,26 @@ constexpr std::chrono::seconds kGrace{2};
 constexpr std::chrono::milliseconds kPoll{1};
 constexpr const char* kRunsNoMore = "the process that runs has faulted or was stopped meanwhile";
 
-std::string digest_of_process(pid_t pid) {
-  const auto found = keys::digest_of_file(fmt::format("/proc/{}/exe", pid));
-  return found ? found->digest : std::string();
-}
-
 }  // namespace
 
 ProcessExchange::ProcessExchange(ExchangeContext& context, std::uint32_t module, bool held)
     : VersionExchange(context, module, held), processes_(context.parts.processes) {}
 
 void ProcessExchange::begin(const operate::ReloadRequest& request) {
-  digest_ = digest_of_process(processes_.pid(module_));
-  if (!accept(request, digest_)) {
+  running_ = processes_.program(module_);
+  if (!accept(request, running_.digest)) {
     step_ = Step::Over;
     return;
   }
-  other_.file = request_.file.empty() ? context_.files[module_] : std::filesystem::path(request_.file);
-  preparation_ =
-      std::make_unique<CandidateThread>(CandidateTask{context_.parts.config, module_, other_.file, context_.parts.store,
-                                                      context_.allowed[module_], context_.parts.libraries[module_]});
+  other_.program.file = request_.file.empty() ? context_.files[module_] : std::filesystem::path(request_.file);
+  CandidateTask task{context_.parts.config,     module_,
+                     other_.program.file,       context_.parts.store,
+                     context_.allowed[module_], context_.parts.libraries[module_]};
+  if (!request_.dry_run) {
+    task.keep_for = context_.parts.node;
+    task.process = processes_.pid(module_);
+  }
+  preparation_ = std::make_unique<CandidateThread>(std::move(task));
 }
 
 void ProcessExchange::go_on(rt::MonoTime now) {
@@ -81,6 +79,7 @@ void ProcessExchange::prepared() {
     answer(CommandResult::Failed, kGivenUp);
     step_ = Step::Over;
   } else if (is_wanted(candidate)) {
+    note_not_kept(candidate);
     launch();
   } else {
     step_ = Step::Over;
@@ -98,6 +97,7 @@ bool ProcessExchange::is_wanted(const Candidate& candidate) {
   } else if (record().state.load() != ModuleState::Running) {
     answer(CommandResult::Refused, "its process does not run, so no other one can follow it");
   } else if (request_.dry_run) {
+    report_.plan.compared = false;
     answer(CommandResult::Done, "would be exchanged; only a process of the new version tells what is carried");
   } else {
     return true;
@@ -107,14 +107,18 @@ bool ProcessExchange::is_wanted(const Candidate& candidate) {
 
 void ProcessExchange::launch() {
   tape::ProcessKeyframes::remove(context_.parts.node, module_, tape::ProcessKeyframes::Of::Next);
-  const auto launched = processes_.launch_next_to(module_, other_.file);
+  const auto launched = processes_.launch_next_to(module_, other_.program.file);
   if (!launched) {
     answer(CommandResult::Failed, fmt::format("cannot be started: {}", std::strerror(launched.error().sys_errno)));
     step_ = Step::Over;
     return;
   }
   other_.pid = launched.value();
-  other_.digest = report_.to;
+  other_.program.digest = report_.to;
+  if (context_.track_of(module_) != nullptr) {
+    const std::string file = std::filesystem::absolute(other_.program.file).string();
+    other_.program.version = context_.parts.tape->versions().add(module_, report_.to, file);
+  }
   slot().ready.store(0);
   slot().successor.store(other_.pid, std::memory_order_release);
   deadline_ = rt::MonoClock::now() + kStartLimit;
@@ -159,7 +163,7 @@ void ProcessExchange::compare(rt::MonoTime now) {
     answer(CommandResult::Refused, "values would be lost; --lossy exchanges it nevertheless");
     leave(now);
   } else {
-    follow_in_ = held_ ? std::numeric_limits<std::uint64_t>::max() : next_macro_period(context_);
+    follow_from_ = held_ ? kNotYet : next_macro_period(context_);
     step_ = Step::Ready;
   }
 }
@@ -169,56 +173,79 @@ void ProcessExchange::let_follow(rt::MonoTime now) {
     abort(describe_end(other_.status), now);
   } else if (record().state.load() != ModuleState::Running) {
     abort(kRunsNoMore, now);
-  } else if (context_.parts.run.tick.load() >= follow_in_) {
+  } else if (follow_from_ != kNotYet) {
+    const scheduler::RunBlock& run = context_.parts.run;
+    const std::uint64_t next = run.tick.load();
+    const auto ahead = static_cast<std::int64_t>(follow_from_ > next ? follow_from_ - next : 0);
     skipped_before_ = record().skipped.load();
     overruns_before_ = record().overruns.load();
-    deadline_ = now + kFollowLimit + 2 * std::chrono::nanoseconds(record().period_ns);
+    deadline_ = now + kFollowLimit + std::chrono::nanoseconds(2 * record().period_ns + ahead * run.basic_period_ns);
     processes_.hold(module_, true);
     slot().previous.store(processes_.pid(module_), std::memory_order_release);
+    slot().version.store(other_.program.version);
+    slot().follow_from.store(follow_from_);
     slot().may_follow.store(other_.pid, std::memory_order_release);
     slot().turn.wake();
+    slot().wake.wake();  // the other one may have executed its last run
     step_ = Step::Following;
   }
 }
 
+// Whether it has begun its first run, or should have.
+bool ProcessExchange::has_run() const noexcept {
+  const scheduler::RunBlock& run = context_.parts.run;
+  const auto period = static_cast<std::uint64_t>(record().period_ns / run.basic_period_ns);
+  const std::uint64_t tick = run.tick.load();
+  return tick > follow_from_ && (period == 0 || slot().runner.load() == other_.pid || tick > follow_from_ + period);
+}
+
 void ProcessExchange::await_follow(rt::MonoTime now) {
-  const pid_t former = processes_.pid(module_);
   if (slot().followed.load(std::memory_order_acquire) == other_.pid) {
-    note_exchanged(now);
-    if (is_given_up_) {
-      go_back(Exchange::Reason::Command, now);
+    if (has_run()) {
+      note_exchanged(now);
     }
   } else if (has_ended(other_) || now > deadline_) {
-    // It may have taken the place already, and not more.
-    slot().may_follow.store(former);
-    slot().turn.wake();
-    abort(other_.pid > 0 ? "the run of the process before it does not end" : describe_end(other_.status), now);
+    withdraw(other_.pid > 0 ? "the run of the process before it does not end" : describe_end(other_.status), now);
   }
+}
+
+void ProcessExchange::withdraw(const std::string& why, rt::MonoTime now) {
+  slot().version.store(running_.version);
+  slot().follow_from.store(0);
+  slot().may_follow.store(processes_.pid(module_));
+  slot().recall.wake();
+  abort(why, now);
 }
 
 void ProcessExchange::swap() {
   const pid_t former = processes_.pid(module_);
-  const std::filesystem::path file = processes_.file(module_);
-  processes_.replace(module_, other_.pid, other_.file, other_.digest);
-  other_ = {former, 0, file, std::exchange(digest_, other_.digest)};
+  running_ = other_.program;
+  other_ = {former, 0, processes_.replace(module_, other_.pid, running_)};
+}
+
+// If the process that runs dies, it is started again with the same program, although its file may have been replaced by
+// that of the version that failed.
+void ProcessExchange::keep_running_file() {
+  const auto same =
+      find_version_file(context_.parts.node, running_.digest, {running_.file}, running_.file.parent_path());
+  if (same) {
+    running_.file = *same;
+    (void)processes_.set_program(module_, running_);
+  }
 }
 
 void ProcessExchange::note_exchanged(rt::MonoTime now) {
-  if (record().version.load() == 0) {
-    rt::copy_text(record().digests[1], digest_);
-    record().version.store(1);
-  }
   swap();
   runs_new_ = true;
   slot().successor.store(0);
-  report_.tick = slot().follow_tick.load() + 1;
+  report_.tick = std::max(follow_from_, slot().follow_tick.load() + 1);
   report_.left_out = record().skipped.load() - skipped_before_;
   const std::int64_t two_periods = 2 * record().period_ns / context_.parts.run.basic_period_ns;
   judged_from_ = report_.tick + static_cast<std::uint64_t>(two_periods) + 1;
-  set_version(is_judged() ? VersionState::Watched : VersionState::Settled, digest_);
+  set_version(is_judged() ? VersionState::Watched : VersionState::Settled, running_.digest);
   context_.parts.console.info("module {}: version {} ({}) is process {}, since tick {}: {} runs left out",
-                              record().name, record().version.load(), short_digest(digest_), processes_.pid(module_),
-                              report_.tick, report_.left_out);
+                              record().name, record().version.load(), short_digest(running_.digest),
+                              processes_.pid(module_), report_.tick, report_.left_out);
   answer(CommandResult::Done,
          report_.plan.with_state ? "exchanged, with what it keeps" : "exchanged, with initial values");
   deadline_ = held_ ? rt::MonoTime::max() : now + std::chrono::nanoseconds(request_.health_ns);
@@ -263,12 +290,13 @@ void ProcessExchange::go_back() {
   const rt::MonoTime now = rt::MonoClock::now();
   switch (step_) {
     case Step::Preparing:
-    case Step::Following:
       is_given_up_ = true;
       return;
     case Step::Starting:
     case Step::Ready:
       return abort(kGivenUp, now);
+    case Step::Following:
+      return withdraw(kGivenUp, now);
     case Step::Watched:
       return go_back(Exchange::Reason::Command, now);
     case Step::Returning:
@@ -284,18 +312,22 @@ void ProcessExchange::go_back(Exchange::Reason reason, rt::MonoTime now) {
   skipped_before_ = record().skipped.load();
   slot().successor.store(other_.pid);  // first, because it waits as the previous one until then
   slot().previous.store(std::max(processes_.pid(module_), 0));
+  slot().version.store(other_.program.version);
+  slot().follow_from.store(0);
   slot().may_follow.store(other_.pid);
-  slot().turn.wake();
+  slot().recall.wake();
   step_ = Step::Returning;
 }
 
 void ProcessExchange::await_return(rt::MonoTime now) {
   if (slot().followed.load(std::memory_order_acquire) == other_.pid) {
     swap();
+    keep_running_file();
     report_.tick = slot().follow_tick.load() + 1;
     report_.left_out = record().skipped.load() - skipped_before_;
     runs_new_ = false;
-    report_return(reason_, digest_, fmt::format("the previous one, is process {} again", processes_.pid(module_)));
+    report_return(reason_, running_.digest,
+                  fmt::format("the previous one, is process {} again", processes_.pid(module_)));
     leave(now);
   } else if (has_ended(other_) || now > deadline_) {
     const std::string why = other_.pid > 0 ? "it does not follow" : describe_end(other_.status);
@@ -310,6 +342,7 @@ void ProcessExchange::leave(rt::MonoTime now) {
   slot().successor.store(0);
   slot().previous.store(0);
   slot().turn.wake();
+  slot().recall.wake();
   processes_.hold(module_, false);
   deadline_ = now + kGrace;
   was_asked_ = false;

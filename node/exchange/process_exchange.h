@@ -27,8 +27,7 @@ class ProcessExchange : public VersionExchange {
   void go_back() override;
   void end() override;
 
-  // Processes do not stop at a tick: the new one follows after the first run that ends after it.
-  void enter(std::uint64_t tick) override { follow_in_ = tick; }
+  void enter(std::uint64_t tick) override { follow_from_ = tick; }
   void settle() override;
   [[nodiscard]] bool is_ready() const noexcept override { return step_ == Step::Ready; }
   [[nodiscard]] bool has_exchanged() const noexcept override { return step_ == Step::Watched; }
@@ -42,8 +41,8 @@ class ProcessExchange : public VersionExchange {
   enum class Step {
     Preparing,  // the file is checked, on a thread of its own
     Starting,   // the new process prepares itself
-    Ready,      // it waits for the macro period in which it may follow
-    Following,  // it follows after the run of the other one
+    Ready,      // it waits for the tick from which on it may follow
+    Following,  // it executes the runs from that tick on
     Watched,    // it runs; the previous one is ready
     Returning,  // the previous one follows it
     Ending,     // the process that runs no more ends
@@ -53,8 +52,7 @@ class ProcessExchange : public VersionExchange {
   struct Other {
     pid_t pid = -1;  // -1: none, or it has ended
     int status = 0;  // of its end
-    std::filesystem::path file;
-    std::string digest;
+    Processes::Program program;
   };
 
   void prepared();
@@ -65,6 +63,7 @@ class ProcessExchange : public VersionExchange {
   void await_ready(rt::MonoTime now);
   void let_follow(rt::MonoTime now);
   void await_follow(rt::MonoTime now);
+  [[nodiscard]] bool has_run() const noexcept;
   void note_exchanged(rt::MonoTime now);
   // An overrun is a reason to return.
   [[nodiscard]] bool is_judged() const noexcept { return held_ || request_.health_ns > 0; }
@@ -77,21 +76,24 @@ class ProcessExchange : public VersionExchange {
   void leave(rt::MonoTime now);
   void await_end(rt::MonoTime now);
   void abort(const std::string& why, rt::MonoTime now);
+  // The same if the other one may have followed.
+  void withdraw(const std::string& why, rt::MonoTime now);
   // The other one runs from now on, and the one that ran becomes the other one.
   void swap();
+  void keep_running_file();
   [[nodiscard]] bool has_ended(Other& other) const;
   [[nodiscard]] scheduler::ProcessSlot& slot() const noexcept { return context_.parts.run.process_slots()[module_]; }
 
   Processes& processes_;
   Step step_ = Step::Preparing;
   bool runs_new_ = false;
-  bool is_given_up_ = false;
+  bool is_given_up_ = false;  // while it is prepared
   std::unique_ptr<CandidateThread> preparation_;
   Other other_;
-  std::string digest_;           // of the file of the process that runs
-  std::uint64_t follow_in_ = 0;  // tick
-  rt::MonoTime deadline_{};      // of this step
-  bool was_asked_ = false;       // the other one to end
+  Processes::Program running_;     // of the process that runs
+  std::uint64_t follow_from_ = 0;  // tick
+  rt::MonoTime deadline_{};        // of this step
+  bool was_asked_ = false;         // the other one to end
   std::uint64_t skipped_before_ = 0;
   std::uint64_t overruns_before_ = 0;
   std::uint64_t judged_from_ = 0;  // tick after which an overrun is one of the new process

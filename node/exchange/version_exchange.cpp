@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "core/rt/clock.h"
-#include "core/rt/copy_text.h"
 #include "node/exchange/schedule_change.h"
 #include "node/exchange/version_text.h"
+#include "scheduler/module_version.h"
 #include "store/operate/journal.h"
 
 namespace indurop::node {
@@ -64,6 +64,15 @@ bool VersionExchange::accept(const operate::ReloadRequest& request, const std::s
   return true;
 }
 
+void VersionExchange::note_not_kept(const Candidate& candidate) const {
+  for (const std::string& note : candidate.notes) {
+    context_.parts.console.warning(
+        "module {}: a replay of recordings across this exchange needs a file that is not "
+        "kept: {}",
+        record().name, note);
+  }
+}
+
 void VersionExchange::answer(CommandResult result, const std::string& text) {
   if (result_) {
     return;
@@ -81,12 +90,7 @@ void VersionExchange::answer(CommandResult result, const std::string& text) {
 }
 
 void VersionExchange::set_version(scheduler::VersionState state, const std::string& digest) {
-  scheduler::ModuleRecord& module = record();
-  const std::uint64_t number = module.version.load() + 1;
-  rt::copy_text(module.digests[number % 2], digest);
-  module.version_tick.store(report_.tick);
-  module.version_state.store(state);
-  module.version.store(number, std::memory_order_release);
+  scheduler::set_version(record(), digest, report_.tick, state);
 }
 
 void VersionExchange::report_return(Exchange::Reason reason, const std::string& digest, const std::string& who) {

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -107,10 +108,13 @@ class VersionExchange {
       : context_(context), module_(module), held_(held) {}
 
   static constexpr const char* kGivenUp = "the exchange was given up";
+  static constexpr std::uint64_t kNotYet = std::numeric_limits<std::uint64_t>::max();  // as tick: enter() says when
 
   // Takes a request over. `running`: digest of the version that runs. Returns false if it was answered, because its
   // guard is none.
   bool accept(const operate::ReloadRequest& request, const std::string& running);
+  // Reports which files are not there for replays.
+  void note_not_kept(const Candidate& candidate) const;
   // The first answer to a command counts.
   void answer(scheduler::CommandResult result, const std::string& text);
   // Another version runs from now on, the one with this digest.

@@ -22,8 +22,11 @@ inline constexpr std::size_t kMostKeptVersions = 32;  // of all modules of a nod
 // or those of the disk.
 Result<void, base::Problem> keep_version(const std::string& node, const ModuleLibrary& version);
 
+// The same for the program of a process module. Errors: those of the disk.
+Result<void, base::Problem> keep_program(const std::string& node, const std::filesystem::path& program);
+
 // Returns a file with this SHA-256: one of `likely`, one that the node has kept, one of the deployments of its agent,
-// or a `.so` in `near`. Nothing: there is none here.
+// or a `.so` or `.exe` in `near`. Nothing: there is none here.
 std::optional<std::filesystem::path> find_version_file(const std::string& node, const std::string& digest,
                                                        const std::vector<std::filesystem::path>& likely,
                                                        const std::filesystem::path& near);

@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <csignal>
 #include <cstring>
+#include <utility>
 
-#include "core/keys/digest.h"
 #include "core/rt/clock.h"
 #include "core/rt/thread.h"
 #include "node/modules/expected_signal.h"
-#include "node/modules/trampoline.h"
 #include "scheduler/runner.h"
 
 namespace indurop::node {
@@ -27,14 +26,6 @@ constexpr std::chrono::milliseconds kPoll{5};
 constexpr std::chrono::seconds kStartPatience{2};
 constexpr std::size_t kRestartsKept = 1000;
 
-// Of constant children, a constant one; null: the module has none.
-template <class Children>
-auto* find_in(Children& children, std::uint32_t module) noexcept {
-  const auto found =
-      std::find_if(children.begin(), children.end(), [module](const auto& child) { return child.index == module; });
-  return found == children.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 std::string describe_end(int status) {
@@ -49,7 +40,10 @@ Processes::Processes(const config::Config& config, scheduler::RunBlock& run, std
     : run_(run), node_(std::move(node)), realtime_(realtime), console_(console), failsafe_(failsafe), tape_(tape) {
   for (std::uint32_t i = 0; i < config.modules.size(); ++i) {
     if (config.modules[i].type == scheduler::ModuleType::Process) {
-      children_.push_back(Child{i, &config.modules[i], config.modules[i].file, {}, -1, {}, {}, false});
+      Child& child = children_.emplace_back();
+      child.index = i;
+      child.module = &config.modules[i];
+      child.program.file = config.modules[i].file;
     }
   }
 }
@@ -87,26 +81,8 @@ bool Processes::launch_all() {
   return true;
 }
 
-bool Processes::is_sound(Child& child) {
-  if (run_.deployment[0] == '\0') {
-    return true;
-  }
-  const auto found = keys::digest_of_file(child.file);
-  const std::string digest = found ? found->digest : std::string();
-  if (child.digest.empty()) {
-    child.digest = digest;
-  }
-  if (!digest.empty() && digest == child.digest) {
-    return true;
-  }
-  console_.about(child.module->name)
-      .error("module {}: it is not started again, because {} is not what was deployed: its SHA-256 is {}, it was {}",
-             child.module->name, child.file.string(), digest.empty() ? "unknown" : digest, child.digest);
-  return false;
-}
-
 bool Processes::launch(Child& child) {
-  if (!is_sound(child)) {
+  if (!note_version(child)) {
     return false;
   }
   scheduler::ProcessSlot& at = slot(child);
@@ -117,7 +93,7 @@ bool Processes::launch(Child& child) {
   at.pid.store(0, std::memory_order_relaxed);
   scheduler::ModuleRecord& module = record(child);
   module.state.store(ModuleState::Starting, std::memory_order_release);
-  const auto started = launch_next_to(child.index, child.file);
+  const auto started = launch_next_to(child.index, child.program.file);
   if (!started) {
     console_.about(module.name)
         .error("module {}: cannot be started: {}", module.name, std::strerror(started.error().sys_errno));
@@ -269,14 +245,6 @@ void Processes::kill_hanging(std::uint32_t module) {
   }
 }
 
-const Processes::Child* Processes::find(std::uint32_t module) const noexcept {
-  return find_in(children_, module);
-}
-
-Processes::Child* Processes::find(std::uint32_t module) noexcept {
-  return find_in(children_, module);
-}
-
 void Processes::ask_to_end(Child& child) {
   slot(child).stop.store(1, std::memory_order_release);  // reported to it by waitPeriod() or irp::stop_requested()
   slot(child).wake.wake();
@@ -320,39 +288,6 @@ bool Processes::start(std::uint32_t module) {
   child->stopping = false;
   child->restarts.clear();
   return launch(*child);
-}
-
-pid_t Processes::pid(std::uint32_t module) const noexcept {
-  const Child* const child = find(module);
-  return child == nullptr ? -1 : child->pid;
-}
-
-std::filesystem::path Processes::file(std::uint32_t module) const {
-  const Child* const child = find(module);
-  return child == nullptr ? std::filesystem::path() : child->file;
-}
-
-Result<pid_t> Processes::launch_next_to(std::uint32_t module, const std::filesystem::path& file) const {
-  const Child& child = *find(module);
-  return node::launch({file.string(), child.module->arguments, node_, std::to_string(module), child.module->core});
-}
-
-void Processes::hold(std::uint32_t module, bool is_held) noexcept {
-  if (Child* const child = find(module); child != nullptr) {
-    child->held = is_held;
-  }
-}
-
-void Processes::replace(std::uint32_t module, pid_t pid, const std::filesystem::path& file, const std::string& digest) {
-  Child& child = *find(module);
-  child.pid = pid;
-  child.file = file;
-  child.digest = digest;
-  child.killed_for_budget = false;
-  child.killed_hanging = false;
-  child.launched = rt::MonoClock::now();
-  record(child).pid.store(pid, std::memory_order_release);
-  record(child).state.store(ModuleState::Running, std::memory_order_release);
 }
 
 void Processes::end_all() {

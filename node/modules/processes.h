@@ -26,6 +26,13 @@ std::string describe_end(int status);
 
 class Processes {
  public:
+  // What a process was launched from.
+  struct Program {
+    std::filesystem::path file;
+    std::string digest;         // SHA-256 of it when it was launched
+    std::uint32_t version = 0;  // number on the tape
+  };
+
   // All references are borrowed; `tape`: null if there is none.
   Processes(const config::Config& config, scheduler::RunBlock& run, std::string node, bool realtime, Console& console,
             FailSafe& failsafe, tape::Tape* tape);
@@ -48,16 +55,18 @@ class Processes {
   void stop(std::uint32_t module, rt::MonoTime now);
   [[nodiscard]] bool has_ended(std::uint32_t module) const noexcept;
   bool start(std::uint32_t module);
-  // For an exchange of a process. The one that runs now, -1: it has died; and its program.
+  // For an exchange of a process. The one that runs now, -1: it has died; and what it was launched from.
   [[nodiscard]] pid_t pid(std::uint32_t module) const noexcept;
-  [[nodiscard]] std::filesystem::path file(std::uint32_t module) const;
+  [[nodiscard]] const Program& program(std::uint32_t module) const noexcept;
   // Launches another process of the module next to it, which is not supervised. Errors: System.
   Result<pid_t> launch_next_to(std::uint32_t module, const std::filesystem::path& file) const;
+  // The next one that is launched is one of this program. Returns the program before it.
+  Program set_program(std::uint32_t module, Program program);
   // While it is held, a module is not restarted when its process dies.
   void hold(std::uint32_t module, bool is_held) noexcept;
-  // This process runs from now on, and is restarted with this file as long as it has this digest. The one before is not
-  // supervised any more.
-  void replace(std::uint32_t module, pid_t pid, const std::filesystem::path& file, const std::string& digest);
+  // This process runs from now on, and is restarted with this file; in a deployment as long as it has this digest. The
+  // one before is not supervised any more. Returns what that one was.
+  Program replace(std::uint32_t module, pid_t pid, Program program);
   // Kills a process that does not return in a simulation, where it has unlimited time.
   void kill_hanging(std::uint32_t module);
   // Requests all to end, waits, kills those still running.
@@ -65,10 +74,9 @@ class Processes {
 
  private:
   struct Child {
-    std::uint32_t index;
-    const config::Module* module;
-    std::filesystem::path file;
-    std::string digest = {};  // of its file when the node started; only for deployed files
+    std::uint32_t index = 0;
+    const config::Module* module = nullptr;
+    Program program;
     pid_t pid = -1;
     rt::MonoTime restart_at{};
     std::deque<rt::MonoTime> restarts;  // times of those within the window
@@ -88,8 +96,8 @@ class Processes {
   // Returns true if a launched process is ready to be released.
   bool enrolled(Child& child);
   bool launch(Child& child);
-  // Returns true if the file of a deployment is unchanged since the node started, so it is the one that was deployed.
-  bool is_sound(Child& child);
+  // Notes which version its file is now. Returns false if it is not the one that was deployed.
+  bool note_version(Child& child);
   void died(Child& child, int status, rt::MonoTime schedule);
   void fault(Child& child, scheduler::FaultKind kind, const std::string& text);
   void plan_restart(Child& child, rt::MonoTime schedule);

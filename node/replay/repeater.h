@@ -42,6 +42,13 @@ class Repeater {
   void stop_apart(const ReplayedModule& module, const ModuleLibrary& version);
   // Calls stop() of a module that is to be started again as another version.
   void stop_for_exchange(ReplayedModule& module);
+  // For a process module. Its next process is one of this file.
+  void set_program(const ReplayedModule& module, const std::filesystem::path& file);
+  // Ends its process and starts another one. Returns false after an error.
+  bool restart(ReplayedModule& module);
+  // What its process keeps now; nothing: that cannot be taken. And puts back what fits of that of another one.
+  std::optional<ReplayedProcess::State> state_of(const ReplayedModule& module);
+  void put_back(const ReplayedModule& module, const ReplayedProcess::State& state);
   // Lets a module run again whose version was ended by a fault.
   void resume(ReplayedModule& module);
   // Ends the modules.
@@ -64,7 +71,6 @@ class Repeater {
   scheduler::Hooks run_hooks();
   void restore(const ReplayedModule& module);
   void find_kept(ReplayedModule& module);
-  bool restart(ReplayedModule& module);
   bool restart_process(std::uint32_t index);
   bool call(std::uint32_t index, const char* phase, void (*function)());
   std::optional<std::string> call_apart(const ReplayedModule& module, const ModuleLibrary& version, const char* phase,

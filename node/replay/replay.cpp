@@ -39,7 +39,7 @@ Replay::Replay(const Options& options, Console& console, base::StopSignal& signa
 
 bool Replay::begin(const RecordedRuns& recorded) {
   modules_.find_begin();
-  const bool any = versions_.begin(modules_) && modules_.look_ahead();
+  const bool any = versions_.begin(modules_, repeater_) && modules_.look_ahead();
   const explain::Facts facts = recorded.facts();
   print_notes(checked_, modules_, recorded, facts, console_);
   comparison_.expect_forces(ForcedThen(facts.orders));
@@ -76,14 +76,14 @@ void Replay::note_doubt(ReplayedModule& module, std::uint64_t tick) {
 }
 
 // Returns false for a run that cannot be repeated because not all is known that it began with.
-bool Replay::can_repeat(ReplayedModule& module, const recorder::RunWords& run) {
+bool Replay::can_repeat(ReplayedModule& module, const recorder::RunWords& run, bool is_restarted) {
   if (module.seen > 0 && run.tail.number != module.next_number) {
     module.forget_older_values();  // inputs of missing runs are missing, too
   }
   module.next_number = run.tail.number + 1;
   const bool known = module.knows_inputs();
   module.too_early += known ? 0U : 1U;
-  const bool begins = std::exchange(module.begins_again, false) || run.anew;
+  const bool begins = std::exchange(module.begins_again, false) || is_restarted;
   const ReplayedMemory::Next next = module.kept.next(run.tail.number, begins, known && !module.lacks_version);
   module.restores = next == ReplayedMemory::Next::Restore;
   if (module.restores) {
@@ -160,9 +160,10 @@ bool Replay::replay_run(const recorder::RunWords& run) {
   if (!versions_.prepare(module, run, repeater_)) {
     return false;
   }
-  module.restart_due = module.restart_due || run.anew;
+  const bool is_restarted = !std::exchange(module.continues, false) && run.anew;
+  module.restart_due = module.restart_due || is_restarted;
   module.lacking += module.lacks_version && run.tail.tick >= options_.replay.from_tick ? 1U : 0U;
-  const bool can = can_repeat(module, run);
+  const bool can = can_repeat(module, run, is_restarted);
   if (can && module.seen == 0 && !alone_) {
     modules_.write_first_outputs(module);
   }

@@ -35,7 +35,7 @@ class Replay {
   void take(const RecordedKeyframe& keyframe);
   void end_at_exchange(ReplayedModule& module, const recorder::RunWords& run);
   bool replay_run(const recorder::RunWords& run);
-  bool can_repeat(ReplayedModule& module, const recorder::RunWords& run);
+  bool can_repeat(ReplayedModule& module, const recorder::RunWords& run, bool is_restarted);
   void note_doubt(ReplayedModule& module, std::uint64_t tick);
   Ending conclude();
 

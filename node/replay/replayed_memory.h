@@ -22,8 +22,11 @@ class ReplayedMemory {
   void expect(const ModuleMemory& memory, bool recorded) noexcept;
   // The same for a process, which keeps it in its own memory: it is put back by Repeater.
   void expect_process(bool declares, bool recorded) noexcept;
-  // The process declares that it keeps nothing.
-  void know_empty() noexcept { empty_process_ = true; }
+  // Another process of the module runs. `empty`: it declares that it keeps nothing.
+  void know_process(bool declares, bool empty) noexcept {
+    process_declares_ = declares;
+    empty_process_ = empty;
+  }
   // No run before the run `first` is repeated: a keyframe begins there. Does nothing if this keyframe is of no use.
   void begin_at(std::uint64_t first) noexcept { first_ = has_keyframes() ? first : 0; }
 

@@ -106,6 +106,7 @@ struct ReplayedModule {
   std::map<std::uint64_t, schema::Access> version_access;  // what any of its versions reads or writes
   bool lacks_version = false;                              // its version of this run cannot repeat it
   bool begins_again = false;                               // that version begins with initial values
+  bool continues = false;                                  // what its process keeps is put back, if it can be
 
   // For a module that goes on with what it wrote itself.
   bool keeps_own = false;

@@ -2,17 +2,29 @@
 #include "node/replay/replayed_process.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <thread>
 
 #include "core/rt/clock.h"
+#include "store/tape/state_form.h"
 
 namespace indurop::node {
 namespace {
 
 constexpr std::chrono::seconds kKeptPatience{5};
 constexpr std::chrono::microseconds kKeptPoll{20};
+
+// The bytes of the module's own functions among those of a keyframe, at its end; empty: it has none.
+std::span<const std::uint8_t> functions_in(std::string_view form, std::span<const std::uint8_t> bytes) {
+  std::size_t items = 0;
+  while (const auto line = tape::take_line(form)) {
+    if (line->type == tape::kFormOfFunctions) {
+      return bytes.subspan(std::min(items, bytes.size()));
+    }
+    items += line->size;
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -48,22 +60,14 @@ bool ReplayedProcess::take() {
   form_ = keyframes_->form();
   items_.clear();
   std::size_t at = 0;
-  for (std::string_view rest = form_; !rest.empty();) {
-    const std::size_t name = rest.find('\t');
-    const std::size_t type = name == std::string_view::npos ? name : rest.find('\t', name + 1);
-    const std::size_t end = type == std::string_view::npos ? type : rest.find('\n', type);
-    std::size_t size = 0;
-    if (end == std::string_view::npos ||
-        std::from_chars(rest.data() + type + 1, rest.data() + end, size).ec != std::errc() ||
-        size > bytes_.size() - at) {
-      break;
+  std::string_view rest = form_;
+  for (auto line = tape::take_line(rest); line && line->size <= bytes_.size() - at; line = tape::take_line(rest)) {
+    if (line->type != tape::kFormOfFunctions) {
+      items_.push_back({line->name.data(), static_cast<std::uint32_t>(line->name.size()),
+                        static_cast<std::uint32_t>(line->type.size()), line->type.data(), bytes_.data() + at,
+                        line->size});
+      at += line->size;
     }
-    if (name > 0) {
-      items_.push_back({rest.data(), static_cast<std::uint32_t>(name), static_cast<std::uint32_t>(type - name - 1),
-                        rest.data() + name + 1, bytes_.data() + at, size});
-      at += size;
-    }
-    rest.remove_prefix(end + 1);
   }
   StateDescriptor declared;
   declared.items = items_.data();
@@ -76,18 +80,22 @@ const ModuleMemory* ReplayedProcess::memory() {
   return take() ? &memory_ : nullptr;
 }
 
-// Items are put back by name, as in a thread module. The bytes of the module's own functions are its own affair: they
-// are put back as they are if all else has the same form.
+std::optional<ReplayedProcess::State> ReplayedProcess::state() {
+  return take() ? std::optional(State{form_, bytes_}) : std::nullopt;
+}
+
+// Items are put back by name, as in a thread module. The bytes of the module's own functions are its own affair.
 std::vector<std::string> ReplayedProcess::restore(std::string_view form, std::span<const std::uint8_t> bytes) {
   const std::vector<std::string> all{"what it keeps"};
   if (!take()) {
     return all;
   }
-  std::vector<std::string> differing;
-  if (form == form_) {
-    bytes_.assign(bytes.begin(), bytes.end());
-  } else {
-    differing = memory_.restore(form, bytes);
+  const auto of_functions = functions_in(form, bytes);
+  const auto own_of_functions = functions_in(form_, bytes_);
+  const std::vector<std::string> differing = memory_.restore(form, bytes.first(bytes.size() - of_functions.size()));
+  if (!of_functions.empty() && !own_of_functions.empty()) {
+    bytes_.resize(bytes_.size() - own_of_functions.size());
+    bytes_.insert(bytes_.end(), of_functions.begin(), of_functions.end());
   }
   const std::span<std::byte> room = keyframes_->room();
   const std::size_t size = std::min(bytes_.size(), room.size());

@@ -17,6 +17,12 @@ namespace indurop::node {
 
 class ReplayedProcess {
  public:
+  // What it keeps, as in a keyframe.
+  struct State {
+    std::string form;
+    std::vector<std::uint8_t> bytes;
+  };
+
   // Finds the memory of the process that runs now. Returns false if it does not declare what it keeps.
   bool open(const std::string& node, std::uint32_t module, std::int32_t node_pid);
 
@@ -26,7 +32,10 @@ class ReplayedProcess {
   // Puts bytes of this form back. Returns the names of what was not possible with.
   std::vector<std::string> restore(std::string_view form, std::span<const std::uint8_t> bytes);
 
-  // What it keeps now, in memory of this process. Null: it cannot be taken.
+  // What it keeps now; nothing: it cannot be taken.
+  std::optional<State> state();
+
+  // The same in memory of this process; null: it cannot be taken.
   const ModuleMemory* memory();
 
  private:
@@ -35,7 +44,7 @@ class ReplayedProcess {
 
   std::optional<tape::ProcessKeyframes> keyframes_;
   std::vector<std::uint8_t> bytes_;
-  std::vector<StateItem> items_;  // the items of the form, in bytes_
+  std::vector<StateItem> items_;  // the items of the form, in bytes_; those of its own functions follow
   std::string form_;
   ModuleMemory memory_;
 };

@@ -61,7 +61,7 @@ bool ReplayedVersions::load(const RecordedRuns& recorded, const ReplayedModules&
     }
     const bool any_came =
         std::any_of(versions.order.begin(), versions.order.end(), [](const auto& one) { return one.exchanged; });
-    if (module->runs && any_came && !has_other_file && !module->is_process()) {
+    if (module->runs && any_came && !has_other_file) {
       ok = load(*module, versions, recorded) && ok;
       if (ok && !versions.order.empty()) {
         all_.emplace(module->index, std::move(versions));
@@ -152,13 +152,14 @@ void ReplayedVersions::report_missing(const ReplayedModule& module, const record
   const auto there = keys::digest_of_file(version.file);
   console_.error(
       "module {}: the file of its version from tick {} on is missing: {} with the SHA-256 {}{}; put it into the folder "
-      "{} under any name that ends in .so, or repeat the runs up to the first exchange with another one: --with "
+      "{} under any name that ends in .{}, or repeat the runs up to the first exchange with another one: --with "
       "{}=FILE",
       module.name, version.first_tick, version.file.empty() ? "a file" : version.file, version.digest,
-      there ? fmt::format(" (the file that is there now has {})", there->digest) : "", where, module.name);
+      there ? fmt::format(" (the file that is there now has {})", there->digest) : "", where,
+      module.is_process() ? "exe" : "so", module.name);
 }
 
-bool ReplayedVersions::begin(const ReplayedModules& modules) {
+bool ReplayedVersions::begin(const ReplayedModules& modules, Repeater& repeater) {
   std::map<std::uint32_t, std::uint64_t> first_runs;  // by module
   auto recorded = all_.empty() ? Unfit{} : RecordedRuns::open(options_.replay.file, options_.replay.board, store_);
   if (recorded) {
@@ -179,6 +180,12 @@ bool ReplayedVersions::begin(const ReplayedModules& modules) {
     ReplayedModule& module = *modules.all()[index];
     versions.at = index_at(versions.order, first_runs[index]);
     module.lacks_version = versions.current().file.empty();
+    if (module.is_process()) {
+      if (!module.lacks_version) {
+        show_process(module, versions, repeater);
+      }
+      continue;
+    }
     if (!module.lacks_version) {
       // An earlier version of the same file has been loaded instead of it.
       if (versions.current().library.functions().run == nullptr && !load_again(module, versions.current())) {
@@ -204,14 +211,22 @@ void ReplayedVersions::show(ReplayedModule& module, Versions& versions) {
 
 bool ReplayedVersions::prepare(ReplayedModule& module, const recorder::RunWords& run, Repeater& repeater) {
   const auto found = all_.find(module.index);
-  return found == all_.end() || index_at(found->second.order, run.tail.number) == found->second.at ||
-         exchange(module, found->second, run, repeater);
+  if (found == all_.end()) {
+    return true;
+  }
+  Versions& versions = found->second;
+  const std::size_t before = std::exchange(versions.at, index_at(versions.order, run.tail.number));
+  if (versions.at == before) {
+    return true;
+  }
+  return module.is_process() ? exchange_process(module, versions, run, repeater)
+                             : exchange(module, versions, run, repeater);
 }
 
 // Where a run failed, the version that follows goes on with what was kept before it.
 void ReplayedVersions::prepare_return(const ReplayedModule& module, const recorder::RunWords& run) {
   const auto found = all_.find(module.index);
-  if (found == all_.end() || !run.faulted || module.lacks_version) {
+  if (found == all_.end() || !run.faulted || module.lacks_version || module.is_process()) {
     return;
   }
   Versions& versions = found->second;
@@ -258,7 +273,6 @@ bool ReplayedVersions::load_again(const ReplayedModule& module, Version& version
 bool ReplayedVersions::exchange(ReplayedModule& module, Versions& versions, const recorder::RunWords& run,
                                 Repeater& repeater) {
   const bool knew = !module.lacks_version;
-  versions.at = index_at(versions.order, run.tail.number);
   const recorder::RecordedVersion& recorded = versions.order[versions.at];
   Version& to = versions.current();
   module.lacks_version = to.file.empty();

@@ -34,7 +34,7 @@ class ReplayedVersions {
   [[nodiscard]] bool follows(const ReplayedModule& module) const { return all_.contains(module.index); }
   // Lets the modules begin with the versions of their first runs that are read; before any module is started. Returns
   // false, after an error, if one cannot be loaded.
-  bool begin(const ReplayedModules& modules);
+  bool begin(const ReplayedModules& modules, Repeater& repeater);
 
   // Before each run: lets another version follow if this run is its first one. Returns false, after an error, if the
   // replay cannot continue.
@@ -50,8 +50,9 @@ class ReplayedVersions {
     AllowedAccess access;
     ModuleLibrary library;  // empty: it runs, or is not loaded now
     bool started = false;
-    bool is_unsound = false;  // it was left in the middle of a run
-    bool is_known = false;    // it keeps what it kept in the recording when it was left
+    bool is_unsound = false;                     // it was left in the middle of a run
+    bool is_known = false;                       // it keeps what it kept in the recording when it was left
+    std::optional<ReplayedProcess::State> kept;  // that, of a process
   };
   // How much of what a version keeps came from the one before it.
   struct Carried {
@@ -78,6 +79,10 @@ class ReplayedVersions {
   void report_missing(const ReplayedModule& module, const recorder::RecordedVersion& version) const;
   void show(ReplayedModule& module, Versions& versions);
   bool exchange(ReplayedModule& module, Versions& versions, const recorder::RunWords& run, Repeater& repeater);
+  void show_process(ReplayedModule& module, Versions& versions, Repeater& repeater) const;
+  bool exchange_process(ReplayedModule& module, Versions& versions, const recorder::RunWords& run,
+                        Repeater& repeater) const;
+  static bool take_over(const ReplayedModule& module, const Version& from, bool own_is_exact, Repeater& repeater);
   [[nodiscard]] Carried carry(const ReplayedModule& module, const ModuleMemory& to) const;
   void note_carried(ReplayedModule& module, Versions& versions, bool knew) const;
   void retire(const ReplayedModule& module, Version& version, Repeater& repeater) const;

@@ -138,10 +138,23 @@ bool Repeater::restart(ReplayedModule& module) {
 }
 
 void Repeater::find_kept(ReplayedModule& module) {
-  if (module.runs && module.is_process() &&
-      kept_[module.index].open(options_.node, module.index, run_.node_pid.load()) && kept_[module.index].is_empty()) {
-    module.kept.know_empty();
+  if (module.runs && module.is_process()) {
+    ReplayedProcess& kept = kept_[module.index];
+    const bool declares = kept.open(options_.node, module.index, run_.node_pid.load());
+    module.kept.know_process(declares, declares && kept.is_empty());
   }
+}
+
+std::optional<ReplayedProcess::State> Repeater::state_of(const ReplayedModule& module) {
+  return module.died ? std::nullopt : kept_[module.index].state();
+}
+
+void Repeater::put_back(const ReplayedModule& module, const ReplayedProcess::State& state) {
+  (void)kept_[module.index].restore(state.form, state.bytes);
+}
+
+void Repeater::set_program(const ReplayedModule& module, const std::filesystem::path& file) {
+  (void)processes_.set_program(module.index, {file, {}, 0});
 }
 
 const ModuleMemory* Repeater::memory_of(const ReplayedModule& module) {

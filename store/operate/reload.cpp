@@ -22,21 +22,17 @@ constexpr const char* kRequestFile = "reload.request";
 constexpr const char* kReportFile = "reload.report";
 
 Json json_of_plan(const ReloadPlan& plan) {
-  return {{"with_state", plan.with_state},
-          {"why_not", plan.why_not},
-          {"bytes", plan.bytes},
-          {"kept", plan.kept},
-          {"grown", plan.grown},
-          {"added", plan.added},
-          {"removed", plan.removed},
-          {"changed", plan.changed},
-          {"appeared", plan.appeared},
-          {"converted", plan.converted},
-          {"lost", plan.lost}};
+  return {{"compared", plan.compared},   {"with_state", plan.with_state},
+          {"why_not", plan.why_not},     {"bytes", plan.bytes},
+          {"kept", plan.kept},           {"grown", plan.grown},
+          {"added", plan.added},         {"removed", plan.removed},
+          {"changed", plan.changed},     {"appeared", plan.appeared},
+          {"converted", plan.converted}, {"lost", plan.lost}};
 }
 
 ReloadPlan plan_of(const Json& json) {
   ReloadPlan plan;
+  base::read(json, "compared", plan.compared);
   base::read(json, "with_state", plan.with_state);
   base::read(json, "why_not", plan.why_not);
   base::read(json, "bytes", plan.bytes);

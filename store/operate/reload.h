@@ -27,6 +27,7 @@ struct ReloadRequest {
 
 // What an exchange carries: names of variables that the versions keep.
 struct ReloadPlan {
+  bool compared = true;  // false: only a process of the new version tells what is carried
   bool with_state = false;
   std::string why_not;                 // why the new version begins with its initial values; empty: it does not
   std::uint64_t bytes = 0;             // that are carried

@@ -175,9 +175,14 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
   enrolled_as_ = follows ? successor : is_launched ? launched : pid_;  // a script may run between the node and it
   phase_ = follows ? Phase::Turn : Phase::Prepared;
   close_records();
+  tape_.reset();
   kept_ = KeptThread::prepare(node_, index, run);
+  open_tape();
   if (!follows) {
-    open_records();
+    if (tape_) {
+      tape_->track().go_on(slot.version.load(), tape_->track().runs() > 0 ? tape::kRestarted : 0U);
+    }
+    start_keyframes();
   }
   (void)Process::get().servers().start(record.fifo_priority, record.core);
   return {};
@@ -295,12 +300,14 @@ bool Enrolment::wait() {
       wait_for_turn();
     } else if (slot_->pid.load(std::memory_order_acquire) != enrolled_as_) {
       give_way();
+    } else if (has_run_last()) {
+      pass_on();
     } else if (take_release()) {
       (void)slot_->wake.try_wait();  // this release's own wake-up, if it did not wake this process
       Process::get().refresh();
       return true;
     } else if (slot_->wake.wait_until(rt::mono_time(rt::now_ns() + kIdleNs))) {
-      if (take_release()) {
+      if (!has_run_last() && take_release()) {
         Process::get().refresh();
         return true;
       }

@@ -58,10 +58,14 @@ class Enrolment {
   Outcome take_slot(RunMapping& mapping, Again again);
   void publish();
   void follow();
+  bool take_over(const tape::ProcessKeyframes* theirs);
   void wait_for_turn();
+  [[nodiscard]] bool has_run_last() const noexcept;
+  void pass_on();
   void give_way();
   void wait_for_hand_over(std::int32_t other, const tape::ProcessKeyframes* keyframes);
-  void open_records();
+  void open_tape();
+  void start_keyframes();
   void close_records();
   static void take_priority(const scheduler::ModuleRecord& record);
   static void lock_memory(const scheduler::ModuleRecord& record);

@@ -63,6 +63,16 @@ Track::Track(std::byte* tape, TapeTrack& shared, const vars::Store& store, Write
   copy_.resize(largest);
 }
 
+void Track::go_on(std::uint32_t number, std::uint32_t marks) noexcept {
+  head_ = shared_.head.load(std::memory_order_acquire);
+  at_ = head_;
+  claimed_ = shared_.claimed.load(kRelaxed);
+  number_ = shared_.runs.load(kRelaxed);
+  all_ = true;
+  open_ = false;
+  marks_.store(mark_of(number) | marks, std::memory_order_release);
+}
+
 Track::Item Track::item_of(const vars::Store& store, std::uint32_t variable) {
   const vars::DirectoryEntry& entry = store.directory()[variable];
   return {store.entry(entry.name_hash, 0), 0, entry.value_size, variable, entry.kind == abi::Kind::Scalar};

@@ -36,6 +36,10 @@ class alignas(kLine) Track {
   void note_restart() noexcept { marks_.fetch_or(kRestarted, std::memory_order_acq_rel); }
   // The number of the version of its code (versions.h); likewise.
   void set_version(std::uint32_t number) noexcept { marks_.store(mark_of(number), std::memory_order_release); }
+  // Continues after the present end of the track, to which another process may have written: the process that calls it
+  // executes all runs from now on. `number`: of its version. `marks` of its first run: kRestarted, kExchanged or both,
+  // if it begins with nothing that the process before it kept; 0. Real-time safe.
+  void go_on(std::uint32_t number, std::uint32_t marks) noexcept;
   // The number of the version that the next note_exchange() is about. Any thread, while no exchange is watched for.
   void set_other_version(std::uint32_t number) noexcept { other_.store(mark_of(number), std::memory_order_release); }
   // The other version of the module's code runs from the run on that begins next, and this one becomes the other one.

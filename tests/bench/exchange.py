@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """What exchanging a module costs. One of many modules of a node is exchanged again and again: time from the command to its end,
-runs that were left out, how much longer the tick of an exchange is than the ticks just before it, memory before and after. Then the
-boards of a plant on this host are exchanged by a deployment: time from the command until the last board has said that it is done."""
+runs that were left out, how much longer the tick of an exchange is than the ticks just before it, memory before and after; with
+--process, one that is a process, of which only the time and the runs are known. Then the boards of a plant on this host are exchanged by a deployment: time from the command until the last board has said that it is done."""
 
 import argparse
 import json
@@ -30,9 +30,18 @@ void onRun() {{
   bench::exchange::{variable} = number;
 }}
 INDUROP_STATE(number, filter)
-INDUROP_MODULE(run = &::onRun)
 """
-MODULE = ("<module><filename>{file}</filename><name>{name}</name><moduletype>thread</moduletype><operationtype>periodic</operationtype>"
+AS_THREAD = "INDUROP_MODULE(run = &::onRun)\n"
+AS_PROCESS = """int main() {
+  if (irp::initPeriodExe() < 0) {
+    return 1;
+  }
+  while (irp::waitPeriod()) {
+    onRun();
+  }
+}
+"""
+MODULE = ("<module><filename>{file}</filename><name>{name}</name><moduletype>{type}</moduletype><operationtype>periodic</operationtype>"
           "<period>{period}</period><priority>{priority}</priority></module>")
 
 
@@ -60,11 +69,14 @@ class Bench:
             raise SystemExit(done.stdout + done.stderr)
         return done.stdout
 
-    def compile(self, name, variable, step):
-        self.write(f"{name}.cpp", CODE.format(variable=variable, step=step))
-        subprocess.run(["g++", "-std=c++20", "-O1", "-fPIC", "-shared", "-fno-gnu-unique", f"-isystem{self.build}/include",
-                        f"-isystem{self.folder}", self.path(f"{name}.cpp"), "-o", self.path(f"{name}.so"), f"-L{self.build}/lib",
-                        "-lindurop", f"-Wl,-rpath,{self.build}/lib"], check=True)
+    def compile(self, name, variable, step, process=False):
+        """Returns the file of the module."""
+        self.write(f"{name}.cpp", CODE.format(variable=variable, step=step) + (AS_PROCESS if process else AS_THREAD))
+        file = self.path(f"{name}.{'exe' if process else 'so'}")
+        subprocess.run(["g++", "-std=c++20", "-O1", "-fPIC", *([] if process else ["-shared", "-fno-gnu-unique"]),
+                        f"-isystem{self.build}/include", f"-isystem{self.folder}", self.path(f"{name}.cpp"), "-o", file,
+                        f"-L{self.build}/lib", "-lindurop", f"-Wl,-rpath,{self.build}/lib"], check=True)
+        return file
 
     def status(self):
         return json.loads(self.check("indurop", "status", "--node", self.node, "-o", "json"))
@@ -81,13 +93,13 @@ class Bench:
 
 def exchange_modules(options, folder):
     bench = Bench(options, folder, options.modules)
-    for i in range(options.modules):
-        bench.compile(f"m{i}", f"v{i}", 1)
-    exchanged = f"m{options.modules // 2}"
-    bench.compile("other", f"v{options.modules // 2}", 2)
+    middle = options.modules // 2
+    exchanged = f"m{middle}"
+    configured = [bench.compile(f"m{i}", f"v{i}", 1, options.process and i == middle) for i in range(options.modules)]
+    versions = [bench.compile("other", f"v{middle}", 2, options.process), configured[middle]]
     bench.write("module.xml", "<root>" + "".join(
-        MODULE.format(file=bench.path(f"m{i}.so"), name=f"m{i}", period=options.period, priority=i + 1)
-        for i in range(options.modules)) + "</root>")
+        MODULE.format(file=file, name=f"m{i}", type="process" if file.endswith(".exe") else "thread", period=options.period,
+                      priority=i + 1) for i, file in enumerate(configured)) + "</root>")
     node = subprocess.Popen(bench.words("indurop-node", bench.path("module.xml"), "--node", bench.node, "-q"), stdout=subprocess.DEVNULL)
     try:
         while subprocess.run(bench.words("indurop", "status", "--node", bench.node), capture_output=True, check=False).returncode != 0:
@@ -99,19 +111,21 @@ def exchange_modules(options, folder):
             if i == options.exchanges // 10:
                 memory = bench.resident_kb(node.pid)
             began = time.monotonic()
-            report = json.loads(bench.check("indurop", "reload", exchanged, bench.path(f"{('other', exchanged)[i % 2]}.so"), "--node",
-                                            bench.node, "--health", "0s", "-o", "json"))
+            report = json.loads(bench.check("indurop", "reload", exchanged, versions[i % 2], "--node", bench.node, "--health", "0s",
+                                            "-o", "json"))
             took.append(time.monotonic() - began)
             left_out += report["left_out"]
-            longer.append(report["response_ns"] - bench.response_before(exchanged, report["tick"]))
+            if not options.process:
+                longer.append(report["response_ns"] - bench.response_before(exchanged, report["tick"]))
         print(f"{options.exchanges} exchanges of one of {options.modules} modules at {options.period}: command to end median "
               f"{statistics.median(took) * 1e3:.0f} ms, p99 {quantile(took, 0.99) * 1e3:.0f} ms (goal: 300)")
         between = bench.status()["lost_ticks"]
         time.sleep(time.monotonic() - all_began)
         print(f"  runs of it left out by the exchanges and the machine {left_out}; ticks lost by the node meanwhile {between - lost}, in the "
               f"same time without exchanges {bench.status()['lost_ticks'] - between}")
-        print(f"  the tick of the exchange is longer by: median {statistics.median(longer) / 1e3:.1f} us, p99 "
-              f"{quantile(longer, 0.99) / 1e3:.1f} us (goal: 5)")
+        if longer:
+            print(f"  the tick of the exchange is longer by: median {statistics.median(longer) / 1e3:.1f} us, p99 "
+                  f"{quantile(longer, 0.99) / 1e3:.1f} us (goal: 5)")
         print(f"  resident memory after a tenth of them {memory} kB, at the end {bench.resident_kb(node.pid)} kB")
     finally:
         node.terminate()
@@ -127,7 +141,7 @@ def exchange_boards(options, folder):
         bench.compile(f"other{i}", f"v{i}", 2)
         shutil.copy(bench.path(f"m{i}.so"), bench.path(f"first{i}.so"))
     bench.write("plant.xml", f'<plant name="bench{os.getpid()}">' + "".join(
-        f'<board name="{board}">' + MODULE.format(file=f"./m{i}.so", name=f"m{i}", period="1ms", priority=1) + "</board>"
+        f'<board name="{board}">' + MODULE.format(file=f"./m{i}.so", name=f"m{i}", type="thread", period="1ms", priority=1) + "</board>"
         for i, board in enumerate(boards)) + "</plant>")
     environment = {**os.environ, "INDUROP_STATE_DIR": bench.path("state")}
     agents = [subprocess.Popen(bench.words("indurop-agent", "--board", board, "--one-host", "--quiet", "--domain", "97"), env=environment)
@@ -166,6 +180,7 @@ def main():
     parser.add_argument("--exchanges", type=int, default=1000)
     parser.add_argument("--modules", type=int, default=50)
     parser.add_argument("--period", default="1ms")
+    parser.add_argument("--process", action="store_true")
     parser.add_argument("--boards", type=int, default=8)
     parser.add_argument("--deployments", type=int, default=10)
     options = parser.parse_args()

@@ -71,11 +71,13 @@ TEST_F(Exchange, A_process_is_exchanged_with_what_it_keeps_and_goes_back) {
   start_plant("process_first");
   bring("a", "press_a_second");
   bring("b", "process_second");
+  EXPECT_EQ(planned(deploy(plant(), {"--dry-run"}).json(), "b", "press"), "exchanged");
   const std::int64_t before = number("b", "turns");
   const Outcome done = deploy(plant());
   ASSERT_EQ(done.code, 0) << done.err << agent("b").err();
   EXPECT_EQ(planned(done.json(), "a", "press"), "exchanged with state");
   EXPECT_EQ(planned(done.json(), "b", "press"), "exchanged with state") << done.out;
+  EXPECT_LT(std::abs(press("a").since_ns - press("b").since_ns), press("a").period_ns / 2) << "not in one tick";
   EXPECT_TRUE(shows("b", -1));
   EXPECT_GT(number("b", "turns"), before);
   EXPECT_TRUE(both_run(done.json()["deployment"]));

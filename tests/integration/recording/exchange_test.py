@@ -48,7 +48,15 @@ class Cell:
         os.replace(self.folder / "press.new", self.folder / "press.so")
 
     def digest(self, version):
-        return hashlib.sha256((self.modules / f"reload_{version}.so").read_bytes()).hexdigest()
+        return self.digest_of(self.modules / f"reload_{version}.so")
+
+    @staticmethod
+    def digest_of(file):
+        return hashlib.sha256(file.read_bytes()).hexdigest()
+
+    def open(self, *words):
+        return subprocess.Popen([self.bin / "indurop", *map(str, words)], env=self.environment, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.PIPE, text=True, cwd=self.folder)
 
     def indurop(self, *words):
         return subprocess.run([self.bin / "indurop", *map(str, words)], env=self.environment, timeout=120, capture_output=True,

@@ -16,8 +16,8 @@ TEST(BoardPlan, Comes_out_of_its_text_as_it_was) {
   sut.tick = ~std::uint64_t{0};
   sut.left_out = 3;
   sut.schedule_tick = 5;
-  for (const Act act : {Act::Kept, Act::Exchanged, Act::Fresh, Act::Rescheduled, Act::Added, Act::Ended, Act::Restarted,
-                        Act::Refused}) {
+  for (const Act act : {Act::Kept, Act::Exchanged, Act::Fresh, Act::Open, Act::Rescheduled, Act::Added, Act::Ended,
+                        Act::Restarted, Act::Refused}) {
     sut.modules.push_back({"m", act, "w\n"});
   }
   const auto read = parse_board_plan(text_of(sut));

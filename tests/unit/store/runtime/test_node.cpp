@@ -118,6 +118,7 @@ void TestNode::make_run(const std::vector<TestModule>& modules) {
     record.property_size = text - record.property_offset;
     block.process_slots()[i].wake.init(true);
     block.process_slots()[i].turn.init(true);
+    block.process_slots()[i].recall.init(true);
     block.process_slots()[i].module = i;
   }
   block.magic.store(kRunMagic, std::memory_order_release);
