@@ -65,20 +65,15 @@ class DeploymentSide {
     return found == digests_.end() ? "" : found->second;
   }
   [[nodiscard]] const std::map<std::string, std::string>& digests() const noexcept { return digests_; }
-  // The files of all modules that can be exchanged, on all boards.
-  [[nodiscard]] std::set<std::string> exchangeable_files() const {
+  // The files of all modules, on all boards.
+  [[nodiscard]] std::set<std::string> module_files() const {
     std::set<std::string> files;
     for (const config::Board& board : plant_.boards) {
       for (const config::Module& module : board.config.modules) {
-        if (is_exchangeable(module)) {
-          files.insert(name_of(module));
-        }
+        files.insert(name_of(module));
       }
     }
     return files;
-  }
-  static bool is_exchangeable(const config::Module& module) {
-    return module.operation != scheduler::Operation::NonReal && module.signal == 0;
   }
 
  private:
@@ -88,10 +83,10 @@ class DeploymentSide {
   std::map<std::string, std::string> digests_;  // by path, relative to the manifest's folder
 };
 
-// Returns the first file that differs besides the manifest and modules that can be exchanged; empty: there is none.
+// Returns the first file that differs besides the manifest and modules; empty: there is none.
 std::string changed_file(const DeploymentSide& before, const DeploymentSide& after) {
-  std::set<std::string> names = before.exchangeable_files();
-  names.merge(after.exchangeable_files());
+  std::set<std::string> names = before.module_files();
+  names.merge(after.module_files());
   for (const auto& [name, digest] : after.digests()) {
     const auto then = before.digests().find(name);
     if (names.insert(name).second && (then == before.digests().end() || then->second != digest)) {
@@ -118,13 +113,12 @@ ModulePlan plan_of(const config::Module& module, const config::Module* then, con
     return {module.name, PlanAct::Added, ""};
   }
   const auto known = running.find(module.name);
-  const bool exchangeable = DeploymentSide::is_exchangeable(module);
-  const std::string old = exchangeable && known != running.end() ? known->second : before.digest_of(*then);
+  const std::string old = known != running.end() ? known->second : before.digest_of(*then);
   const std::string now = after.digest_of(module);
   if (now.empty() || old == now) {
     return {module.name, PlanAct::Kept, ""};
   }
-  return {module.name, exchangeable ? PlanAct::Exchanged : PlanAct::Restarted, ""};
+  return {module.name, PlanAct::Exchanged, ""};
 }
 
 void plan_modules(const DeploymentSide& before, const DeploymentSide& after, const std::string& board,

@@ -1,34 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/exchange/exchange_kind.h"
 
+#include "node/exchange/background_exchange.h"
 #include "node/exchange/module_exchange.h"
 #include "node/exchange/process_exchange.h"
+#include "node/exchange/restart_exchange.h"
 
 namespace indurop::node {
 
 using scheduler::ModuleType;
 
 const char* why_not_exchanged(const config::Module& module, bool simulated) noexcept {
-  const bool is_process = module.type == ModuleType::Process;
-  if (module.operation == scheduler::Operation::NonReal) {
-    return is_process
-               ? "it runs in the background, where no run is waited for: `indurop restart` launches its new file"
-               : "it runs in the background, where no run is waited for: stop and run the node to load its new file";
-  }
-  if (is_process && module.signal != 0) {
-    return "its process is released by a signal, so no other one can follow it: `indurop restart` launches its new "
-           "file";
-  }
-  return is_process && simulated
+  return module.type == ModuleType::Process && simulated
              ? "in a simulation, a process is not exchanged: `indurop restart` launches its new file"
              : nullptr;
 }
 
-std::unique_ptr<VersionExchange> make_exchange(ExchangeContext& context, std::uint32_t module, bool held) {
-  if (context.parts.config.modules[module].type == ModuleType::Process) {
-    return std::make_unique<ProcessExchange>(context, module, held);
+std::unique_ptr<VersionExchange> make_exchange(ExchangeContext& context, std::uint32_t index, bool held) {
+  const config::Module& module = context.parts.config.modules[index];
+  const bool is_in_background = module.operation == scheduler::Operation::NonReal;
+  if (module.type == ModuleType::Thread) {
+    return is_in_background ? std::unique_ptr<VersionExchange>(new BackgroundExchange(context, index, held))
+                            : std::make_unique<ModuleExchange>(context, index, held);
   }
-  return std::make_unique<ModuleExchange>(context, module, held);
+  return is_in_background || module.signal != 0
+             ? std::unique_ptr<VersionExchange>(new RestartExchange(context, index, held))
+             : std::make_unique<ProcessExchange>(context, index, held);
 }
 
 }  // namespace indurop::node

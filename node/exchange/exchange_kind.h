@@ -15,6 +15,6 @@ namespace indurop::node {
 const char* why_not_exchanged(const config::Module& module, bool simulated) noexcept;
 
 // For a module that can. `held`: see VersionExchange.
-std::unique_ptr<VersionExchange> make_exchange(ExchangeContext& context, std::uint32_t module, bool held);
+std::unique_ptr<VersionExchange> make_exchange(ExchangeContext& context, std::uint32_t index, bool held);
 
 }  // namespace indurop::node

@@ -64,6 +64,12 @@ bool ExchangeSet::is_under_way() const noexcept {
   return false;
 }
 
+bool ExchangeSet::is_up(std::uint32_t module) const noexcept {
+  const ModuleState state = context_.parts.run.modules()[module].state.load();
+  const bool is_in_background = context_.parts.config.modules[module].operation == scheduler::Operation::NonReal;
+  return state == ModuleState::Running || (is_in_background && state == ModuleState::Exited);
+}
+
 bool ExchangeSet::is_open(std::uint32_t module) const noexcept {
   const auto found = all_.find(module);
   return found != all_.end() && found->second->is_open();
@@ -121,7 +127,7 @@ std::string ExchangeSet::begin(const SetRequest& request) {
       report_.needs_restart = true;
       return fmt::format("module {} is none that is exchanged while it runs", module.name);
     }
-    if (run.modules()[index].state.load() != ModuleState::Running) {
+    if (!is_up(index)) {
       report_.needs_restart = true;
       return fmt::format("module {} does not run", module.name);
     }
@@ -205,7 +211,7 @@ void ExchangeSet::go_on() {
       return follow_exchange();
     case State::Ready:
       for (const auto& [module, exchange] : all_) {
-        if (context_.parts.run.modules()[module].state.load() != ModuleState::Running) {
+        if (!is_up(module)) {
           return fail(fmt::format("module {} does not run any more", context_.parts.run.modules()[module].name));
         }
       }

@@ -16,6 +16,7 @@
 #include "node/exchange/candidate.h"
 #include "node/exchange/guard_condition.h"
 #include "node/exchange/retired.h"
+#include "node/modules/normal_threads.h"
 #include "node/modules/processes.h"
 #include "node/run/console.h"
 #include "node/run/phases.h"
@@ -37,6 +38,7 @@ struct ExchangeParts {
   vars::Store& store;
   Console& console;
   Processes& processes;
+  NormalThreads& normal_threads;
   bool simulated = false;      // virtual time does not pass while a version is prepared
   bool may_grow = false;       // versions may bring variables that the store does not have
   bool keeps_types = false;    // others know the types of variables: topics

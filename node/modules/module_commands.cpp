@@ -67,7 +67,7 @@ void ModuleCommands::poll(rt::MonoTime now) {
   for (std::uint32_t i = 0; i < parts_.run.module_count; ++i) {
     const ModuleCommand command = scheduler::waiting_command(record(i));
     const bool taken = std::any_of(works_.begin(), works_.end(), [i](const Work& work) { return work.module == i; });
-    if (!is_own(command) || taken) {
+    if (!is_own(command) || taken || exchanges_.is_open(i)) {
       continue;
     }
     if (record(i).ended) {

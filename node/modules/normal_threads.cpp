@@ -15,13 +15,19 @@ constexpr std::size_t kThreadStack = std::size_t{8} * 1024 * 1024;
 }  // namespace
 
 struct NormalThreads::Normal {
+  enum class Halt : std::uint8_t { None, Requested, Taken };
+  // Whether its thread is to end. Once it is, it does.
+  bool takes_halt() noexcept {
+    Halt requested = Halt::Requested;
+    return halt.compare_exchange_strong(requested, Halt::Taken) || requested == Halt::Taken;
+  }
   Normal(scheduler::RunBlock& run, scheduler::Kernel& with, const scheduler::Hooks& hooks, scheduler::CoreTrace& trace)
       : runner(run, with, hooks, trace, 1), kernel(with) {}
   scheduler::TaskState state;
   scheduler::Runner runner;
   scheduler::Kernel& kernel;
   std::int64_t period_ns = 0;
-  std::atomic<bool> halt{false};
+  std::atomic<Halt> halt{Halt::None};
   rt::MonoTime give_up;
   std::atomic<bool> done{false};
   std::unique_ptr<scheduler::KernelThread> thread;
@@ -73,7 +79,7 @@ NormalThreads::Normal* NormalThreads::find(std::uint32_t module) noexcept {
 void NormalThreads::halt(std::uint32_t module, rt::MonoTime now) {
   if (Normal* normal = find(module); normal != nullptr) {
     normal->give_up = now + kGrace;
-    normal->halt.store(true);
+    normal->halt.store(Normal::Halt::Requested);
   }
 }
 
@@ -88,9 +94,28 @@ bool NormalThreads::has_ended(std::uint32_t module, rt::MonoTime now) {
     }
     return false;
   }
-  normal->thread->join();
-  std::erase_if(normals_, [normal](const auto& one) { return one.get() == normal; });
+  remove(*normal);
   return true;
+}
+
+bool NormalThreads::has_left(std::uint32_t module) {
+  Normal* normal = find(module);
+  const bool done = normal == nullptr || normal->done.load();
+  if (normal != nullptr && done) {
+    remove(*normal);
+  }
+  return done;
+}
+
+bool NormalThreads::go_on(std::uint32_t module) noexcept {
+  Normal* normal = find(module);
+  Normal::Halt requested = Normal::Halt::Requested;
+  return normal != nullptr && normal->halt.compare_exchange_strong(requested, Normal::Halt::None);
+}
+
+void NormalThreads::remove(Normal& normal) {
+  normal.thread->join();
+  std::erase_if(normals_, [&normal](const auto& one) { return one.get() == &normal; });
 }
 
 void NormalThreads::loop(Normal& normal) noexcept {
@@ -99,7 +124,7 @@ void NormalThreads::loop(Normal& normal) noexcept {
   scheduler::ModuleRecord& record = *normal.state.record;
   record.state.store(scheduler::ModuleState::Running);
   scheduler::TaskState* const only[] = {&normal.state};
-  const auto leaving = [&] { return stop_.load() || normal.halt.load(); };
+  const auto leaving = [&] { return stop_.load() || normal.takes_halt(); };
   scheduler::Kernel& kernel = normal.kernel;
   rt::MonoTime next = kernel.now();
   do {

@@ -33,10 +33,15 @@ class NormalThreads {
   bool launch(std::uint32_t module);
   void halt(std::uint32_t module, rt::MonoTime now);
   bool has_ended(std::uint32_t module, rt::MonoTime now);
+  // For an exchange: true as well when the thread has ended, but a run that does not return is not ended.
+  bool has_left(std::uint32_t module);
+  // Takes halt() back. Returns false if the thread is ending all the same.
+  bool go_on(std::uint32_t module) noexcept;
 
  private:
   struct Normal;
   Normal* find(std::uint32_t module) noexcept;
+  void remove(Normal& normal);
   void loop(Normal& normal) noexcept;
 
   const config::Config& config_;

@@ -57,7 +57,7 @@ Running::Running(const Options& options, Console& console, base::StopSignal& sig
                                       normal_threads_, phases_, *prepared.failsafe, console, prepared.tape.get(),
                                       placement(options, prepared.rights), checked.routes, mirror_},
                 Exchanges::Parts{options.node, checked.config, run_, loaded.libraries, engine_, *prepared.store,
-                                 console, processes_, options.simulation.on, !checked.mirror,
+                                 console, processes_, normal_threads_, options.simulation.on, !checked.mirror,
                                  checked.external.is_wanted(), prepared.tape.get()},
                 checked.check,
                 Phases(checked.config, run_, loaded.libraries, console, signals, apart_hooks(), kernel_)) {}

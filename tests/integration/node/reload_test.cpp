@@ -270,15 +270,9 @@ TEST_F(Reload, State_that_functions_copy_or_that_is_large_is_copied_between_two_
   }
 }
 
-TEST_F(Reload, Sporadic_modules_are_exchanged_and_others_say_why_not) {
-  start_and_wait({kOther,
-                  {.file = "event.so", .name = "event", .operation = "sporadic", .period = "10ms", .priority = 3},
-                  {.file = "faulty.so", .name = "normal", .operation = "non-real", .more = "<period>5ms</period>"},
-                  {.file = "process.exe",
-                   .name = "process",
-                   .type = "process",
-                   .operation = "non-real",
-                   .more = "<argument>count</argument>"}});
+TEST_F(Reload, Sporadic_modules_are_exchanged) {
+  start_and_wait(
+      {kOther, {.file = "event.so", .name = "event", .operation = "sporadic", .period = "10ms", .priority = 3}});
   ASSERT_TRUE(runs_reach("event", 5));
   const std::string copy = folder() / "event.so";
   std::filesystem::copy_file(std::filesystem::path(MODULE_DIR) / "event.so", copy);
@@ -286,8 +280,6 @@ TEST_F(Reload, Sporadic_modules_are_exchanged_and_others_say_why_not) {
   const Outcome done = reload({"event", copy, "--lossy", "--health", "0s"});
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_TRUE(runs_reach("event", module("event").runs.load() + 5));
-  EXPECT_CONTAINS(reload({"normal"}).err, "it runs in the background");
-  EXPECT_CONTAINS(reload({"process"}).err, "`indurop restart` launches its new file");
   EXPECT_CONTAINS(reload({"evnt"}).err, "Did you mean 'event'?");
 }
 
