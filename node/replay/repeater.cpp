@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "node/replay/repeater.h"
 
+#include <algorithm>
 #include <utility>
 
-#include "core/rt/thread_time.h"
+#include "core/rt/processor_time.h"
 #include "store/runtime/host.h"
 
 namespace indurop::node {
@@ -130,7 +131,9 @@ bool Repeater::repeat(ReplayedModule& module, const recorder::RunWords& run) {
     restore(module);
   }
   if (module.is_process()) {
+    const std::int64_t before_ns = rt::process_time_ns(processes_.pid(module.index));
     run_process(module, run.tail);
+    module.busy_ns = std::max<std::int64_t>(0, rt::process_time_ns(processes_.pid(module.index)) - before_ns);
   } else {
     scheduler::TaskState* state = &module.state;
     const std::vector<tape::ReplayedAnswer> answers = module.replayed_answers();

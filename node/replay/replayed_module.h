@@ -86,7 +86,7 @@ struct ReplayedModule {
   bool was_stopped = false;  // its stop() was called for that
   bool restores = false;     // its keyframe is put back before this run
   bool disturbed = false;    // its inputs were changed while it ran
-  std::int64_t busy_ns = 0;  // processor time of the repeated run; threads only
+  std::int64_t busy_ns = 0;  // processor time of the repeated run; of a process, with that of waiting for it
 
   // Numbers of runs.
   std::uint64_t seen = 0;       // in the recording

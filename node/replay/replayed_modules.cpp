@@ -24,14 +24,15 @@ schema::Access access_in(const std::map<std::uint64_t, schema::Access>& all, std
 }
 
 // Returns why the module is not run again; empty: it is.
-std::string reason_to_leave_out(const config::Module& module, const std::vector<std::string>& imports) {
+// `alone`: next to the node of the recording, which has the devices.
+std::string reason_to_leave_out(const config::Module& module, const std::vector<std::string>& imports, bool alone) {
   if (module.operation == Operation::NonReal) {
     return "it runs in the background";
   }
   if (module.signal != 0) {
     return "it does not say when a run ends";
   }
-  if (module.type == ModuleType::Process) {
+  if (module.type == ModuleType::Process && !alone) {
     return "";
   }
   return config::talks_to_others(imports) ? "it speaks to devices or the network" : "";
@@ -76,12 +77,10 @@ void ReplayedModules::choose(const RecordedRuns& recorded) {
   for (const auto& module : modules_) {
     const config::Module& configured = checked_.config.modules[module->index];
     const bool is_wanted = checked_.alone.value_or(module->index) == module->index;
-    std::string reason = names(recorded.modules(), module->name)
-                             ? reason_to_leave_out(configured, checked_.check.facts[module->index].file.imports)
-                             : "it is not in the recording";
-    if (checked_.alone && configured.type == ModuleType::Process) {
-      reason = "it is a process";
-    }
+    const std::string reason = names(recorded.modules(), module->name)
+                                   ? reason_to_leave_out(configured, checked_.check.facts[module->index].file.imports,
+                                                         checked_.alone.has_value())
+                                   : "it is not in the recording";
     module->runs = reason.empty() && is_wanted;
     module->why_not = reason;
     if (const bool any = recorded.has_keyframes(module->name); configured.type == ModuleType::Process) {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/rt/clock.h"
-#include "core/rt/thread_time.h"
+#include "core/rt/processor_time.h"
 
 namespace indurop::node {
 namespace {

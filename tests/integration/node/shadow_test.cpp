@@ -191,18 +191,57 @@ TEST_F(Shadow, Initial_values_need_consent) {
   EXPECT_EQ(variable(lossy.json()["shadow"], "nt::output")["first_is"], "1");
 }
 
-TEST_F(Shadow, Modules_that_cannot_be_exchanged_say_so) {
-  start_and_wait({kOther,
-                  {.file = "process.exe",
-                   .name = "process",
-                   .type = "process",
-                   .period = "2ms",
-                   .priority = 4,
-                   .more = "<argument>count</argument>"}});
-  const Outcome process = indurop({"reload", "process", "--shadow", "200ms", "--node", node()});
-  EXPECT_EQ(process.code, 1) << process.err;
-  EXPECT_CONTAINS(process.err, "it is a process");
+TEST_F(Shadow, Misspelt_names_are_noticed) {
+  start_counting();
   EXPECT_CONTAINS(indurop({"reload", "othr", "--shadow", "200ms", "--node", node()}).err, "Did you mean 'other'?");
+}
+
+class ShadowOfProcess : public Shadow {
+ protected:
+  void start_walking() {
+    start_and_wait(
+        {kOther,
+         {.file = "rambler_process.exe", .name = "counter", .type = "process", .period = "2ms", .priority = 4}});
+    ASSERT_TRUE(runs_reach("counter", 400));
+  }
+  Outcome shadow_of(const std::string& name, const std::vector<std::string>& more = {}) const {
+    return shadow(std::filesystem::path(MODULE_DIR) / (name + ".exe"), more);
+  }
+};
+
+TEST_F(ShadowOfProcess, Does_not_differ_from_itself) {
+  start_walking();
+  const Outcome done = shadow_of("rambler_process");
+  EXPECT_EQ(done.code, 0) << done.out << done.err;
+  EXPECT_CONTAINS(done.out, "2 variables: equal");
+  EXPECT_CONTAINS(done.err, "this version runs already");
+  expect_untouched();
+}
+
+// It begins where the running process was, and goes 5 further in each run.
+TEST_F(ShadowOfProcess, Differs_by_what_it_does_in_another_way) {
+  start_walking();
+  const pid_t before = module("counter").pid.load();
+  const Outcome done = shadow_of("rambler_process_other", {"-o", "json"});
+  EXPECT_EQ(done.code, 4) << done.err;
+  const nlohmann::json report = done.json()["shadow"];
+  const nlohmann::json walked = variable(report, "nt::walked");
+  EXPECT_GT(report["runs"], 200);
+  EXPECT_EQ(walked["differing"], report["runs"]);
+  EXPECT_EQ(walked["largest"], 5 * report["runs"].get<double>());
+  EXPECT_GT(report["now"]["median_ns"], 0);
+  EXPECT_EQ(module("counter").pid.load(), before);
+  expect_untouched();
+  const Outcome accepted = shadow_of("rambler_process_other", {"--accept", "nt::* <= inf"});
+  EXPECT_EQ(accepted.code, 0) << accepted.out << accepted.err;
+  EXPECT_NE(module("counter").pid.load(), before);
+}
+
+TEST_F(ShadowOfProcess, That_keeps_it_in_another_way_needs_consent) {
+  start_walking();
+  const Outcome done = shadow_of("rambler_by_process", {"--lossy", "--accept", "nt::* <= inf"});
+  EXPECT_EQ(done.code, 0) << done.out << done.err;
+  EXPECT_EQ(module("counter").version.load(), 2U);
 }
 
 // Versions that use variables which the node does not have, or has with another type.
