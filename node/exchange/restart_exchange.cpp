@@ -15,7 +15,8 @@ using scheduler::Exchange;
 using scheduler::ModuleState;
 using scheduler::VersionState;
 
-constexpr std::chrono::seconds kLaunchLimit{5};  // until a process is ready to be released
+constexpr std::chrono::seconds kLaunchLimit{5};        // until a process is ready to be released
+constexpr std::chrono::milliseconds kFirstCheck{100};  // until then, one that cannot run at all has ended
 
 }  // namespace
 
@@ -121,6 +122,7 @@ void RestartExchange::launch_other(Step to, rt::MonoTime now) {
   } else {
     other_ = processes_.set_program(module_, std::move(other_));
   }
+  launched_ = now;
   deadline_ = processes_.start(module_) ? now + kLaunchLimit : rt::MonoTime::min();
   step_ = to;
 }
@@ -129,7 +131,7 @@ void RestartExchange::await_new(rt::MonoTime now) {
   if (is_down(now)) {
     return go_back(Exchange::Reason::Fault, now);
   }
-  if (!is_up()) {
+  if (!is_up() || now < launched_ + kFirstCheck) {
     return;
   }
   if (is_given_up_) {

@@ -63,7 +63,8 @@ class RestartExchange : public VersionExchange {
   bool runs_new_ = false;
   bool is_given_up_ = false;
   std::unique_ptr<CandidateThread> preparation_;
-  Processes::Program other_;                                                // of the version that does not run
+  Processes::Program other_;  // of the version that does not run
+  rt::MonoTime launched_{};
   rt::MonoTime deadline_{};                                                 // of this step
   scheduler::Exchange::Reason reason_ = scheduler::Exchange::Reason::None;  // of the way back
 };

@@ -141,7 +141,7 @@ def exchange_boards(options, folder):
         bench.compile(f"other{i}", f"v{i}", 2)
         shutil.copy(bench.path(f"m{i}.so"), bench.path(f"first{i}.so"))
     bench.write("plant.xml", f'<plant name="bench{os.getpid()}">' + "".join(
-        f'<board name="{board}">' + MODULE.format(file=f"./m{i}.so", name=f"m{i}", type="thread", period="1ms", priority=1) + "</board>"
+        f'<board name="{board}">' + MODULE.format(file=f"./m{i}.so", name=f"m{i}", type="thread", period=options.board_period, priority=1) + "</board>"
         for i, board in enumerate(boards)) + "</plant>")
     environment = {**os.environ, "INDUROP_STATE_DIR": bench.path("state")}
     agents = [subprocess.Popen(bench.words("indurop-agent", "--board", board, "--one-host", "--quiet", "--domain", "97"), env=environment)
@@ -182,6 +182,7 @@ def main():
     parser.add_argument("--period", default="1ms")
     parser.add_argument("--process", action="store_true")
     parser.add_argument("--boards", type=int, default=8)
+    parser.add_argument("--board-period", default="10ms", help="long enough for all boards to run on the cores of this host")
     parser.add_argument("--deployments", type=int, default=10)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // As walker, but it declares what it keeps between its runs. BY_FUNCTIONS: by save() and restore().
 // AS_PROCESS: as a process module. SELDOM: it writes in one of 1000 runs only. BUSY_US: each run takes so long, and
-// save() too, in the middle of its work.
+// save() too, in the middle of its work. LONGER: it keeps more, so its restore() rejects the bytes of the others.
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 
@@ -15,6 +15,9 @@ namespace {
 struct Path {
   std::int64_t own = 0;
   double filtered[4] = {};
+#ifdef LONGER
+  double unused = 0;
+#endif
 };
 Path path;
 std::uint32_t steps = 0;

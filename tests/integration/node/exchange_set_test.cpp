@@ -199,7 +199,7 @@ class WithAProcess : public SeveralModules {
     SeveralModules::SetUp();
     std::filesystem::copy_file(std::filesystem::path(MODULE_DIR) / "process.exe", next());
     std::ofstream(next(), std::ios::app) << "another version";
-    ASSERT_TRUE(runs_reach("process", 20));
+    ASSERT_TRUE(wait_until([&] { return module("process").state.load() == scheduler::ModuleState::Running; }));
   }
   std::vector<Module> modules() override {
     std::vector<Module> all = SeveralModules::modules();
@@ -277,6 +277,60 @@ TEST_F(WithAProcess, One_that_cannot_run_or_is_given_up_prevents_all) {
   EXPECT_EQ(pid(), before);
   expect_process_runs();
   expect_each_run_once();
+  expect_all_counted();
+}
+
+class WithBackground : public WithAProcess {
+ protected:
+  std::vector<Module> modules() override {
+    std::vector<Module> all = WithAProcess::modules();
+    all.back().operation = "non-real";
+    all.back().period = "";
+    all.push_back({.file = "rambler.so", .name = "walker", .operation = "non-real", .more = "<period>2ms</period>"});
+    return all;
+  }
+  void prepare_with_background() {
+    const std::string walker = folder() / "walker.so";
+    std::filesystem::copy_file(std::filesystem::path(MODULE_DIR) / "rambler.so", walker,
+                               std::filesystem::copy_options::overwrite_existing);
+    std::ofstream(walker, std::ios::app) << "another version";
+    ASSERT_EQ(request({Act::Prepare,
+                       "second",
+                       {{"other", copy()}, {"press", built("other")}, {"process", next()}, {"walker", walker}},
+                       0}),
+              CommandResult::Done);
+    ASSERT_TRUE(comes_to(State::Ready)) << report().problem;
+  }
+};
+
+TEST_F(WithBackground, All_follow_and_return_with_the_others) {
+  for (const bool stays : {false, true}) {
+    prepare_with_background();
+    const pid_t before = pid();
+    exchange(100);
+    ASSERT_TRUE(comes_to(State::Exchanged)) << report().problem;
+    EXPECT_EQ(module("walker").version_state.load(), scheduler::VersionState::Watched);
+    EXPECT_NE(pid(), before);
+    EXPECT_TRUE(runs_reach("walker", module("walker").runs.load() + 20));
+    ASSERT_EQ(request({Act::Decide, stays ? "second" : "", {}, 0}), CommandResult::Done);
+    ASSERT_TRUE(comes_to(stays ? State::None : State::Undone)) << report().problem;
+    EXPECT_TRUE(runs_reach("walker", module("walker").runs.load() + 20));
+    EXPECT_EQ(module("process").state.load(), scheduler::ModuleState::Running);
+    expect_all_counted();
+  }
+  EXPECT_EQ(module("walker").version.load(), 4U);
+  EXPECT_STREQ(block().deployment, "second");
+}
+
+TEST_F(WithBackground, A_process_that_ends_takes_all_back) {
+  prepare_with_background();
+  exchange(100);
+  ASSERT_TRUE(comes_to(State::Exchanged)) << report().problem;
+  ASSERT_EQ(::kill(pid(), SIGKILL), 0);
+  ASSERT_TRUE(comes_to(State::Undone)) << report().problem;
+  EXPECT_STREQ(block().deployment, "");
+  EXPECT_EQ(module("process").state.load(), scheduler::ModuleState::Running);
+  EXPECT_TRUE(runs_reach("walker", module("walker").runs.load() + 20));
   expect_all_counted();
 }
 

@@ -41,6 +41,13 @@ class ReloadBackground : public Reload {
       return runs > 0 && (now == runs || now == runs + 1);
     });
   }
+  bool comes_to_run(const std::string& program) {
+    return wait_until([&] {
+      const pid_t now = module("process").pid.load();
+      std::error_code gone;
+      return now > 0 && std::filesystem::read_symlink("/proc/" + std::to_string(now) + "/exe", gone) == program;
+    });
+  }
   bool runs_more() { return runs_reach("counter", module("counter").runs.load() + 20); }
   void expect_other_undisturbed() {
     EXPECT_EQ(module("other").skipped.load(), run()->lost_ticks.load());
@@ -118,13 +125,13 @@ TEST_F(ReloadBackground, A_process_ends_and_one_of_the_new_version_is_launched) 
   const pid_t first = module("process").pid.load();
   const std::string next = copy_of("process.exe");
   EXPECT_CONTAINS(reload({"process", next}).err, "--lossy exchanges it nevertheless");
+  EXPECT_EQ(reload({"process", "/bin/false", "--lossy", "--health", "0s"}).code, 1);
   const Outcome done = reload({"process", next, "--lossy", "--health", "0s"});
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_CONTAINS(done.out, "its process ends before the next one is launched");
-  const pid_t second = module("process").pid.load();
-  EXPECT_NE(second, first);
+  EXPECT_NE(module("process").pid.load(), first);
   EXPECT_NE(::kill(first, 0), 0);
-  EXPECT_EQ(std::filesystem::read_symlink("/proc/" + std::to_string(second) + "/exe"), next);
+  EXPECT_TRUE(comes_to_run(next));
   EXPECT_EQ(module("process").version.load(), 2U);
   int number = 1;
   for (const std::string bad : {"/bin/false", "killed", "back"}) {
@@ -136,11 +143,7 @@ TEST_F(ReloadBackground, A_process_ends_and_one_of_the_new_version_is_launched) 
       bad == "back" ? (void)reload({"process", "--back"}) : (void)::kill(module("process").pid.load(), SIGKILL);
     }
     EXPECT_NE(client.wait(), 0) << bad << client.err();
-    EXPECT_TRUE(wait_until([&] {
-      const pid_t now = module("process").pid.load();
-      std::error_code gone;
-      return now > 0 && std::filesystem::read_symlink("/proc/" + std::to_string(now) + "/exe", gone) == next;
-    })) << bad;
+    EXPECT_TRUE(comes_to_run(next)) << bad;
     EXPECT_EQ(module("process").state.load(), ModuleState::Running);
   }
   EXPECT_EQ(module("process").restarts.load(), 0U);

@@ -20,6 +20,15 @@ namespace {
 using scheduler::ModuleState;
 using scheduler::VersionState;
 
+// What rambler.cpp has walked after so many runs of one process: the sum of 3 + n % 5.
+std::int64_t walked_after(std::uint64_t runs) {
+  std::int64_t walked = 0;
+  for (std::uint64_t n = 1; n <= runs; ++n) {
+    walked += 3 + static_cast<std::int64_t>(n % 5);
+  }
+  return walked;
+}
+
 class ReloadProcess : public Reload {
  protected:
   static Module process(const std::string& file = "process.exe", const std::string& argument = "count") {
@@ -40,6 +49,15 @@ class ReloadProcess : public Reload {
   pid_t pid() { return module("process").pid.load(); }
   bool runs_more() { return runs_reach("process", module("process").runs.load() + 20); }
   static bool is_there(pid_t pid) { return ::kill(pid, 0) == 0; }
+  // All runs of the module, by whichever process, have continued what the ones before kept.
+  void expect_walked_all() {
+    EXPECT_TRUE(wait_until([&] {
+      const std::uint64_t runs = module("process").runs.load();
+      const auto walked = value<std::int64_t>("nt::walked");
+      return walked == walked_after(runs) || walked == walked_after(runs + 1);
+    })) << value<std::int64_t>("nt::walked")
+        << " after " << module("process").runs.load() << " runs";
+  }
 };
 
 TEST_F(ReloadProcess, Another_process_follows_and_each_run_is_executed_once) {
@@ -110,15 +128,6 @@ TEST_F(ReloadProcess, A_new_process_that_cannot_run_changes_nothing) {
   EXPECT_EQ(sut.wait(), 0) << sut.err();
 }
 
-// What rambler.cpp has walked after so many runs of one process: the sum of 3 + n % 5.
-std::int64_t walked_after(std::uint64_t runs) {
-  std::int64_t walked = 0;
-  for (std::uint64_t n = 1; n <= runs; ++n) {
-    walked += 3 + static_cast<std::int64_t>(n % 5);
-  }
-  return walked;
-}
-
 TEST_F(ReloadProcess, What_a_process_keeps_goes_to_the_next_one_and_back) {
   for (const std::string file : {"rambler_process.exe", "rambler_by_process.exe"}) {
     Program& sut = start_and_wait({process(file, "")});
@@ -136,12 +145,7 @@ TEST_F(ReloadProcess, What_a_process_keeps_goes_to_the_next_one_and_back) {
     EXPECT_EQ(reload({"process", "--back"}).code, 0);
     EXPECT_EQ(client.wait(), 5) << client.err();
     EXPECT_TRUE(runs_more());
-    EXPECT_TRUE(wait_until([&] {
-      const std::uint64_t runs = module("process").runs.load();
-      const auto walked = value<std::int64_t>("nt::walked");
-      return walked == walked_after(runs) || walked == walked_after(runs + 1);
-    })) << file
-        << ": " << value<std::int64_t>("nt::walked") << " after " << module("process").runs.load() << " runs";
+    expect_walked_all();
     EXPECT_EQ(module("process").skipped.load(), run()->lost_ticks.load());
     sut.signal(SIGTERM);
     EXPECT_EQ(sut.wait(), 0) << sut.err();
@@ -197,6 +201,84 @@ TEST_F(ReloadProcess, A_new_process_that_is_killed_at_any_moment_leaves_one_that
     EXPECT_GE(runs, 20U);
   }
   EXPECT_EQ(module("process").restarts.load(), 0U);
+}
+
+// Those of the next process are wrong: it ends, and the one that has handed over continues.
+TEST_F(ReloadProcess, Bytes_that_the_new_process_rejects_stay_with_the_previous_one) {
+  start_and_wait({process("rambler_by_process.exe", "")});
+  ASSERT_TRUE(runs_reach("process", 20));
+  const pid_t before = pid();
+  const Outcome rejected = reload({"process", version(1, "rambler_longer_process.exe"), "--health", "0s"});
+  EXPECT_EQ(rejected.code, 1) << rejected.err;
+  EXPECT_CONTAINS(rejected.err, "exited with code 1");
+  EXPECT_EQ(pid(), before);
+  EXPECT_EQ(module("process").version.load(), 1U);
+  EXPECT_TRUE(runs_more());
+  expect_walked_all();
+  EXPECT_EQ(reload({"process", version(2, "rambler_longer_process.exe"), "--lossy", "--health", "0s"}).code, 0);
+  EXPECT_NE(pid(), before);
+  EXPECT_TRUE(runs_more());
+}
+
+// Whatever moment it is, the next one continues with what the other one handed over, or the module is started again.
+TEST_F(ReloadProcess, A_process_that_is_killed_while_it_is_followed_leaves_one_that_runs) {
+  constexpr int kTimes = 12;
+  Module slow = process("rambler_process.exe", "");
+  slow.more = "<restart max=\"100\" delay=\"1ms\"/>";
+  start_and_wait({slow});
+  ASSERT_TRUE(runs_reach("process", 20));
+  std::mt19937 random(20261129);  // NOLINT(cert-msc32-c,cert-msc51-cpp): each run of the test is to be the same
+  for (int i = 0; i < kTimes; ++i) {
+    const pid_t before = pid();
+    Program client(
+        {INDUROP_PROGRAM, "reload", "process", version(i, "rambler_process.exe"), "--health", "0s", "--node", node()},
+        environment());
+    const auto& slot = run()->process_slots()[0];
+    ASSERT_TRUE(wait_until([&] { return slot.successor.load() > 0 || !client.running(); }));
+    rt::sleep_until(rt::MonoClock::now() +
+                    std::chrono::microseconds(std::uniform_int_distribution<int>(0, 30'000)(random)));
+    ASSERT_EQ(::kill(before, SIGKILL), 0);
+    (void)client.wait();
+    EXPECT_TRUE(wait_until([&] {
+      return slot.successor.load() == 0 && pid() > 0 && pid() != before && alive(pid()) &&
+             module("process").state.load() == ModuleState::Running;
+    })) << client.err();
+    EXPECT_TRUE(runs_more());
+    const auto walked = value<std::int64_t>("nt::walked");
+    std::uint64_t runs = 0;
+    while (walked_after(runs) < walked) {
+      ++runs;
+    }
+    EXPECT_EQ(walked_after(runs), walked);
+    EXPECT_LE(runs, module("process").runs.load() + 1);
+  }
+}
+
+TEST_F(ReloadProcess, A_node_that_is_killed_while_a_process_follows_can_be_started_again) {
+  constexpr int kTimes = 6;
+  std::mt19937 random(20261130);  // NOLINT(cert-msc32-c,cert-msc51-cpp): each run of the test is to be the same
+  for (int i = 0; i < kTimes; ++i) {
+    Program& sut = start_and_wait({process("rambler_process.exe", "")});
+    ASSERT_TRUE(runs_reach("process", 20));
+    const pid_t first = pid();
+    Program client(
+        {INDUROP_PROGRAM, "reload", "process", version(i, "rambler_process.exe"), "--health", "60s", "--node", node()},
+        environment());
+    const auto& slot = run()->process_slots()[0];
+    ASSERT_TRUE(wait_until([&] { return slot.successor.load() > 0; }));
+    const pid_t second = slot.successor.load();
+    rt::sleep_until(rt::MonoClock::now() +
+                    std::chrono::microseconds(std::uniform_int_distribution<int>(0, 30'000)(random)));
+    sut.signal(SIGKILL);
+    (void)sut.wait();
+    EXPECT_NE(client.wait(), 0);
+    Program& again = start_and_wait({process("rambler_process.exe", "")});
+    EXPECT_TRUE(runs_more());
+    EXPECT_TRUE(wait_until([&] { return !alive(first) && !alive(second); }));
+    expect_walked_all();
+    again.signal(SIGTERM);
+    EXPECT_EQ(again.wait(), 0) << again.err();
+  }
 }
 
 TEST_F(ReloadProcess, A_node_that_ends_in_the_health_window_ends_both_processes) {

@@ -113,7 +113,7 @@ TEST_F(DeploymentChangeTest, Another_file_that_differs_needs_a_restart) {
   EXPECT_EQ(change(before_, sources).plan.restart, "") << "sources run nowhere";
 }
 
-TEST_F(DeploymentChangeTest, A_process_that_differs_needs_a_restart) {
+TEST_F(DeploymentChangeTest, A_process_in_the_background_is_exchanged_too) {
   const auto with = [&](const std::string& content) {
     Files files = before_;
     files["plant.xml"] = plant(module("press", "./press.so") +
@@ -123,8 +123,8 @@ TEST_F(DeploymentChangeTest, A_process_that_differs_needs_a_restart) {
     return files;
   };
   const DeploymentChange sut = change(with("1"), with("2"));
-  EXPECT_EQ(sut.plan.restart, "eye.exe has changed");
-  EXPECT_THAT(acts(sut), ElementsAre(Act::Kept, Act::Restarted));
+  EXPECT_EQ(sut.plan.restart, "");
+  EXPECT_THAT(acts(sut), ElementsAre(Act::Kept, Act::Exchanged));
 }
 
 TEST_F(DeploymentChangeTest, A_manifest_that_says_something_else_needs_a_restart) {
