@@ -137,6 +137,8 @@ constexpr const char* kMonitor =
 
 #include <algorithm>
 
+INDUROP_STATE()  // keeps nothing of its own between two runs
+
 int main() {
   if (irp::initPeriodExe() < 0) {
     return 1;  // the reason was printed
