@@ -138,14 +138,6 @@ void ModuleLibrary::find_functions() {
   }
 }
 
-ModuleLibrary::Mark ModuleLibrary::mark_of(const std::filesystem::path& file) {
-  struct stat info {};
-  constexpr std::int64_t kSecondNs = 1'000'000'000;
-  return ::stat(file.c_str(), &info) != 0
-             ? Mark{}
-             : Mark{info.st_dev, info.st_ino, info.st_size, info.st_mtim.tv_sec * kSecondNs + info.st_mtim.tv_nsec};
-}
-
 const void* ModuleLibrary::inside() const noexcept {
   link_map* map = nullptr;
   return handle_ != nullptr && ::dlinfo(handle_, RTLD_DI_LINKMAP, &map) == 0 ? map->l_ld : nullptr;

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/base/problem.h"
+#include "node/modules/file_mark.h"
 #include "node/modules/module_memory.h"
 
 namespace indurop::node {
@@ -66,19 +67,10 @@ class ModuleLibrary {
   [[nodiscard]] const ModuleMemory& memory() const noexcept { return memory_; }
 
  private:
-  // Identifies the file that was loaded.
-  struct Mark {
-    std::uint64_t device = 0;
-    std::uint64_t number = 0;
-    std::int64_t size = 0;
-    std::int64_t changed_ns = 0;
-    friend bool operator==(const Mark&, const Mark&) = default;
-  };
-  static Mark mark_of(const std::filesystem::path& file);
   void find_functions();
   std::filesystem::path file_;
   std::string digest_;
-  Mark mark_;
+  FileMark mark_;  // of the file that was loaded
   void* handle_ = nullptr;
   // Stays open, for content(). For the copy, the dynamic linker would mistake a second file with its inode number for
   // it.

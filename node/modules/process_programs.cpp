@@ -31,6 +31,7 @@ Processes::Child* Processes::find(std::uint32_t module) noexcept {
 }
 
 bool Processes::note_version(Child& child) {
+  child.program.mark = mark_of(child.program.file);
   const auto found = keys::digest_of_file(child.program.file);
   const std::string digest = found ? found->digest : std::string();
   const std::string before = child.program.digest;

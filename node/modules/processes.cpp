@@ -130,7 +130,7 @@ bool Processes::supervise(rt::MonoTime now, rt::MonoTime schedule) {
       } else if (child.stopping) {
         kill_if_late(child, now);
       } else if (module.state.load(std::memory_order_acquire) == ModuleState::Starting && enrolled(child)) {
-        module.state.store(ModuleState::Running, std::memory_order_release);
+        enter(child);
       } else {
         enforce_budget(child, schedule);
       }
@@ -143,6 +143,15 @@ bool Processes::supervise(rt::MonoTime now, rt::MonoTime schedule) {
     }
   }
   return !reason_.empty();
+}
+
+// It may be another program than the one whose version was noted.
+void Processes::enter(Child& child) {
+  if (executes(child.pid, child.program.file, child.program.mark)) {
+    record(child).state.store(ModuleState::Running, std::memory_order_release);
+  } else if (!std::exchange(child.was_replaced, true)) {
+    ::kill(child.pid, SIGKILL);
+  }
 }
 
 std::optional<rt::MonoTime> Processes::next_restart() const noexcept {
@@ -168,6 +177,12 @@ void Processes::died(Child& child, int status, rt::MonoTime schedule) {
   child.pid = -1;
   module.pid.store(0, std::memory_order_release);
   if (child.stopping) {
+    return;
+  }
+  if (std::exchange(child.was_replaced, false)) {
+    if (!launch(child)) {
+      plan_restart(child, schedule);
+    }
     return;
   }
   if (child.module->operation == Operation::NonReal && WIFEXITED(status) && WEXITSTATUS(status) == 0) {

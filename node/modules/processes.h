@@ -15,6 +15,7 @@
 
 #include "config/model/config.h"
 #include "node/modules/failsafe.h"
+#include "node/modules/file_mark.h"
 #include "node/run/console.h"
 #include "scheduler/run_block.h"
 #include "store/tape/tape.h"
@@ -29,7 +30,8 @@ class Processes {
   // What a process was launched from.
   struct Program {
     std::filesystem::path file;
-    std::string digest;         // SHA-256 of it when it was launched
+    FileMark mark = {};         // of it when it was launched
+    std::string digest = {};    // its SHA-256
     std::uint32_t version = 0;  // number on the tape
   };
 
@@ -82,7 +84,8 @@ class Processes {
     std::deque<rt::MonoTime> restarts;  // times of those within the window
     bool killed_for_budget = false;
     bool killed_hanging = false;
-    bool warned = false;  // already warned that it does not expect its signal
+    bool was_replaced = false;  // killed, because its file was replaced while it was started
+    bool warned = false;        // already warned that it does not expect its signal
     rt::MonoTime launched{};
     bool stopping = false;  // by command
     bool held = false;      // not restarted
@@ -93,6 +96,7 @@ class Processes {
   void ask_to_end(Child& child);
   void kill_if_late(Child& child, rt::MonoTime now);
   [[nodiscard]] bool managed(const Child& child) const noexcept;
+  void enter(Child& child);
   // Returns true if a launched process is ready to be released.
   bool enrolled(Child& child);
   bool launch(Child& child);

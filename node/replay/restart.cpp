@@ -154,7 +154,7 @@ void Repeater::put_back(const ReplayedModule& module, const ReplayedProcess::Sta
 }
 
 void Repeater::set_program(const ReplayedModule& module, const std::filesystem::path& file) {
-  (void)processes_.set_program(module.index, {file, {}, 0});
+  (void)processes_.set_program(module.index, {.file = file});
 }
 
 const ModuleMemory* Repeater::memory_of(const ReplayedModule& module) {
