@@ -130,11 +130,9 @@ void BackgroundExchange::check_health(rt::MonoTime now) {
   const ModuleState state = record().state.load();
   if (state == ModuleState::Faulted) {
     go_back(Exchange::Reason::Fault, now);
-  } else if (state == ModuleState::Stopped) {
-    settle();
-  } else if (guard_ && !guard_->holds(context_.parts.store)) {
+  } else if (state != ModuleState::Stopped && guard_ && !guard_->holds(context_.parts.store)) {
     go_back(Exchange::Reason::Guard, now);
-  } else if (now >= deadline_) {
+  } else if (state == ModuleState::Stopped || now >= deadline_) {
     settle();
   }
 }

@@ -51,7 +51,7 @@ class BackgroundExchange : public ThreadExchange {
   [[nodiscard]] bool would_run() const noexcept override;
 
   Step step_ = Step::Preparing;
-  std::uint64_t tick_;
+  std::uint64_t tick_ = 0;
   bool runs_new_ = false;
   rt::MonoTime deadline_{};                                                 // of this step
   scheduler::Exchange::Reason reason_ = scheduler::Exchange::Reason::None;  // of the way back

@@ -130,6 +130,9 @@ class CandidateCheck {
   }
 
   void check_imports(const std::vector<std::string>& imports) {
+    if (task_.ends_first) {
+      return;
+    }
     const auto has = [&imports](std::string_view beginning) {
       return std::any_of(imports.begin(), imports.end(),
                          [beginning](const std::string& name) { return name.starts_with(beginning); });
@@ -204,11 +207,15 @@ ModuleLibrary::Uses uses_of(const config::ModuleFacts& facts) {
 
 Candidate make_candidate(const CandidateTask& task) {
   Candidate candidate;
+  candidate.mark = mark_of(task.file);
   if (const auto digest = keys::digest_of_file(task.file)) {
     candidate.digest = digest->digest;
   }
   candidate.needs_restart = CandidateCheck(task, candidate).run();
   if (task.config.modules[task.module].type == scheduler::ModuleType::Process) {
+    if (candidate.errors.empty()) {
+      make_places(task, candidate);
+    }
     if (candidate.errors.empty() && !task.keep_for.empty()) {
       keep_programs(task, candidate);
     }

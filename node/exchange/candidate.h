@@ -42,10 +42,12 @@ struct CandidateTask {
   std::string keep_for = {};  // node in whose state the files of both versions are kept; empty: they are not
   bool try_first = false;     // see try_module()
   pid_t process = -1;         // that runs now, of a process module
+  bool ends_first = false;    // the one that runs ends before it starts
 };
 
 struct Candidate {
-  std::string digest;     // of the file
+  FileMark mark;          // of the file, before it was read
+  std::string digest;     // of it
   ModuleLibrary library;  // empty: it is a process
   Carry carry;
   AllowedAccess access;             // what it reads and writes

@@ -55,6 +55,8 @@ class ProcessExchange : public VersionExchange {
     Processes::Program program;
   };
 
+  static constexpr const char* kProcessRunsNoMore = "the process that runs has faulted or was stopped meanwhile";
+
   void prepared();
   // Returns false if it was answered that nothing is exchanged.
   bool is_wanted(const Candidate& candidate);
@@ -90,10 +92,12 @@ class ProcessExchange : public VersionExchange {
   bool is_given_up_ = false;  // while it is prepared
   std::unique_ptr<CandidateThread> preparation_;
   Other other_;
-  Processes::Program running_;     // of the process that runs
-  std::uint64_t follow_from_ = 0;  // tick
-  rt::MonoTime deadline_{};        // of this step
-  bool was_asked_ = false;         // the other one to end
+  ModuleLibrary::Uses other_uses_;  // of the process that is not supervised
+  VariableChange variables_;        // that the new one brings
+  Processes::Program running_;      // of the process that runs
+  std::uint64_t follow_from_ = 0;   // tick
+  rt::MonoTime deadline_{};         // of this step
+  bool was_asked_ = false;          // the other one to end
   std::uint64_t skipped_before_ = 0;
   std::uint64_t overruns_before_ = 0;
   std::uint64_t judged_from_ = 0;  // tick after which an overrun is one of the new process

@@ -32,6 +32,7 @@ void RestartExchange::begin(const operate::ReloadRequest& request) {
                      context_.parts.store,
                      context_.allowed[module_],
                      context_.parts.libraries[module_]};
+  task.ends_first = true;
   if (!request_.dry_run && processes_.pid(module_) > 0) {
     task.keep_for = context_.parts.node;
     task.process = processes_.pid(module_);
@@ -69,6 +70,7 @@ void RestartExchange::prepared() {
   } else if (is_wanted(candidate)) {
     note_not_kept(candidate);
     other_.digest = report_.to;
+    other_.mark = candidate.mark;
     tick_ = held_ ? kNotYet : next_macro_period(context_);
     step_ = Step::Ready;
   } else {
@@ -155,11 +157,9 @@ void RestartExchange::check_health(rt::MonoTime now) {
   const ModuleState state = record().state.load();
   if (state == ModuleState::Restarting || state == ModuleState::Faulted) {
     go_back(Exchange::Reason::Fault, now);
-  } else if (state == ModuleState::Stopped) {
-    settle();
-  } else if (guard_ && !guard_->holds(context_.parts.store)) {
+  } else if (state != ModuleState::Stopped && guard_ && !guard_->holds(context_.parts.store)) {
     go_back(Exchange::Reason::Guard, now);
-  } else if (now >= deadline_) {
+  } else if (state == ModuleState::Stopped || now >= deadline_) {
     settle();
   }
 }

@@ -17,11 +17,15 @@ using scheduler::CommandResult;
 using scheduler::Exchange;
 
 void ExchangeContext::offer_to_track(std::uint32_t module, const ModuleLibrary& version) const {
-  if (track_of(module) == nullptr) {
-    return;
+  if (track_of(module) != nullptr) {
+    offer_to_track(module, version.uses());
+    track_of(module)->set_other_version(version.number());
   }
+}
+
+void ExchangeContext::offer_to_track(std::uint32_t module, const ModuleLibrary::Uses& of_version) const {
   std::vector<tape::VariableUse> uses;
-  for (const auto& [name, use] : version.uses()) {
+  for (const auto& [name, use] : of_version) {
     // The place that now has the name of a variable whose type changes is not the one that this version uses.
     const vars::DirectoryEntry* const entry = parts.store.find(name);
     if (entry != nullptr && entry->type_hash == use.type) {
@@ -33,7 +37,6 @@ void ExchangeContext::offer_to_track(std::uint32_t module, const ModuleLibrary& 
                           parts.store.schema().variables[parts.store.directory()[variable].schema_index].name,
                           parts.config.modules[module].name);
   }
-  track_of(module)->set_other_version(version.number());
 }
 
 void ExchangeContext::set_on_track(std::uint32_t module, const ModuleLibrary& version) const {

@@ -63,6 +63,8 @@ struct ExchangeContext {
   }
   // The version may follow: its runs get its number, and the track the variables that it uses.
   void offer_to_track(std::uint32_t module, const ModuleLibrary& version) const;
+  // The variables only, as for a process.
+  void offer_to_track(std::uint32_t module, const ModuleLibrary::Uses& uses) const;
   // The module does not run, and its next run is one of this version.
   void set_on_track(std::uint32_t module, const ModuleLibrary& version) const;
 };

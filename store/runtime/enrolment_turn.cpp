@@ -33,6 +33,9 @@ void Enrolment::open_tape() {
   const std::uint32_t module = hot.process_module.load(std::memory_order_relaxed);
   if (auto member = tape::Member::open(node_, module, attachment->store())) {
     tape_ = std::move(member).value();
+    if (tape_->has_later_variables()) {
+      tape_->add_later(Process::get().uses_of(attachment->store()), attachment->store());
+    }
   }
 }
 

@@ -175,6 +175,18 @@ Status Process::attach_locked(const std::string& node, std::size_t& unbound) {
   return {};
 }
 
+std::vector<tape::VariableUse> Process::uses_of(const vars::Store& store) {
+  const std::lock_guard lock(mutex_);
+  std::vector<tape::VariableUse> uses;
+  for (const auto& [name_hash, access] : tables_.access()) {
+    const vars::DirectoryEntry* const entry = store.find(name_hash);
+    if (entry != nullptr && (access.reads || access.writes)) {
+      uses.push_back({static_cast<std::uint32_t>(entry - store.directory().data()), access.reads, access.writes});
+    }
+  }
+  return uses;
+}
+
 void Process::refresh() noexcept {
   const Attachment* current = hot.attachment.load(std::memory_order_acquire);
   if (current != nullptr && current->retired() && !hosted()) [[unlikely]] {

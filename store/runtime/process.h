@@ -22,6 +22,7 @@
 #include "store/runtime/pool_bindings.h"
 #include "store/runtime/ref_tables.h"
 #include "store/runtime/run_mapping.h"
+#include "store/tape/track.h"
 
 namespace indurop::runtime {
 
@@ -62,6 +63,8 @@ class Process {
   // Binds to `node` unless already bound to its current block. `unbound`: number of variables used by the program that
   // could not be bound; each is reported once on stderr. Errors: those of Store::attach.
   Status attach(const std::string& node, std::size_t& unbound);
+  // What the program's code uses of the store, for its track. Not real-time safe.
+  std::vector<tape::VariableUse> uses_of(const vars::Store& store);
   // Attaches again if the block was replaced. Otherwise costs one load.
   void refresh() noexcept;
 

@@ -102,10 +102,26 @@ std::uint32_t RefTables::bindings() noexcept {
   return bindings_done.load(std::memory_order_acquire);
 }
 
-BindingProblem RefTables::describe(Table& table, const abi::Ref& ref, const Attachment& to) {
+const ModuleFacts& RefTables::facts_of(Table& table) {
   if (!table.facts) {
     table.facts = read_module_of(table.refs);
   }
+  return *table.facts;
+}
+
+std::map<std::uint64_t, schema::Access> RefTables::access() {
+  std::map<std::uint64_t, schema::Access> all;
+  for (Table& table : tables_) {
+    for (const auto& [name_hash, access] : facts_of(table).file.access) {
+      all[name_hash].reads = all[name_hash].reads || access.reads;
+      all[name_hash].writes = all[name_hash].writes || access.writes;
+    }
+  }
+  return all;
+}
+
+BindingProblem RefTables::describe(Table& table, const abi::Ref& ref, const Attachment& to) {
+  (void)facts_of(table);
   BindingProblem problem;
   problem.used = table.facts->uses(ref.name_hash);
   const schema::Variable* mine = table.facts->variable(ref.name_hash);

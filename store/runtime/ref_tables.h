@@ -6,6 +6,7 @@
 #include <indurop/detail/abi.h>
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +36,8 @@ class RefTables {
   // Binds all rows again.
   std::vector<BindingProblem> bind(const Attachment* to);
   [[nodiscard]] bool empty() const noexcept { return tables_.empty(); }
+  // Which variables the code of the loaded files reads or writes, by the hash of their names.
+  [[nodiscard]] std::map<std::uint64_t, schema::Access> access();
   // A number, not 0, that changes when rows that were bound get other addresses. Any thread; real-time safe.
   [[nodiscard]] static std::uint32_t bindings() noexcept;
 
@@ -48,6 +51,7 @@ class RefTables {
   };
   static void bind_table_apart(Table& table, const Attachment& values);
   void bind_table(Table& table, const Attachment* to, std::vector<BindingProblem>& problems);
+  static const ModuleFacts& facts_of(Table& table);
   static BindingProblem describe(Table& table, const abi::Ref& ref, const Attachment& to);
 
   std::vector<Table> tables_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "store/tape/check.h"
 
@@ -28,6 +29,24 @@ Result<Member> Member::open(const std::string& node, std::uint32_t module, const
   }
   auto track = std::make_unique<Track>(memory, *own, store, Track::Writer::Process);
   return Member(std::move(file).value(), std::move(track));
+}
+
+bool Member::has_later_variables() const noexcept {
+  return header_of(file_.data()).later_variables.load(std::memory_order_acquire) > 0;
+}
+
+void Member::add_later(std::span<const VariableUse> uses, const vars::Store& store) {
+  const TapeHeader& header = header_of(file_.data());
+  const std::uint32_t known = header.variable_count + header.later_variables.load(std::memory_order_acquire);
+  std::vector<VariableUse> later;
+  for (const VariableUse& use : uses) {
+    const bool is_later = use.variable >= header.variable_count && use.variable < known;
+    if (is_later && track_->has_room_for(store.directory()[use.variable].value_size)) {
+      later.push_back(use);
+    }
+  }
+  track_->offer(later, store);
+  track_->take_offered();
 }
 
 }  // namespace indurop::tape

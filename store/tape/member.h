@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "store/tape/track.h"
@@ -22,6 +23,10 @@ class Member {
   static Result<Member> open(const std::string& node, std::uint32_t module, const vars::Store& store);
 
   [[nodiscard]] Track& track() const noexcept { return *track_; }
+  // Returns true if the node's store has variables that it did not have when the tape was made.
+  [[nodiscard]] bool has_later_variables() const noexcept;
+  // Those of `uses` that are such variables are recorded, too. Before the first run; not real-time safe.
+  void add_later(std::span<const VariableUse> uses, const vars::Store& store);
 
  private:
   Member(vars::ShmFile&& file, std::unique_ptr<Track> track) : file_(std::move(file)), track_(std::move(track)) {}

@@ -2,6 +2,7 @@
 // As walker, but it declares what it keeps between its runs. BY_FUNCTIONS: by save() and restore().
 // AS_PROCESS: as a process module. SELDOM: it writes in one of 1000 runs only. BUSY_US: each run takes so long, and
 // save() too, in the middle of its work. LONGER: it keeps more, so its restore() rejects the bytes of the others.
+// GAINS: it brings a variable.
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 
@@ -43,6 +44,9 @@ void onRun() {
   }
 #endif
   nt::walked = path.own;
+#ifdef GAINS
+  nt::gained = 2 * path.own;
+#endif
   nt::pace = {path.own, path.filtered[0] + path.filtered[3]};
 }
 

@@ -148,17 +148,24 @@ class FlowTest : public AgentsTest {
                                folder / (module + ".so"));
   }
   void bring(const std::string& source, const std::string& sink) const {
-    bring_to(folder(), "source", source);
+    if (source_is_process_) {
+      std::filesystem::remove(folder() / "source.exe");
+      std::filesystem::copy_file(std::filesystem::path(FLOW_FOLDER) / ("source_process_" + source + ".exe"),
+                                 folder() / "source.exe");
+    } else {
+      bring_to(folder(), "source", source);
+    }
     bring_to(folder(), "sink", sink);
   }
-  static std::string module(const std::string& name, int priority = 1) {
-    return "<module><filename>./" + name +
-           ".so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype><period>10ms</period>"
+  static std::string module(const std::string& name, int priority = 1, bool is_process = false) {
+    return "<module><filename>./" + name + (is_process ? ".exe" : ".so") + "</filename><name>" + name +
+           "</name><moduletype>" + (is_process ? "process" : "thread") +
+           "</moduletype><operationtype>periodic</operationtype><period>10ms</period>"
            "<priority>" +
            std::to_string(priority) + "</priority><budget>1s</budget></module>";
   }
-  [[nodiscard]] std::string plant(const std::string& a = module("source"),
-                                  const std::string& b = module("sink")) const {
+  [[nodiscard]] std::string plant() const { return plant(module("source", 1, source_is_process_)); }
+  [[nodiscard]] std::string plant(const std::string& a, const std::string& b = module("sink")) const {
     std::ofstream out(folder() / "plant.xml");
     out << "<plant name=\"p" << ::getpid() << "\"><domain>" << domain() << "</domain><external>off</external>\n"
         << "<board name=\"" << board("a") << "\">" << a << "</board>\n<board name=\"" << board("b") << "\">" << b
@@ -261,6 +268,7 @@ class FlowTest : public AgentsTest {
     return "no such module";
   }
 
+  bool source_is_process_ = false;
   std::string first_;                  // id
   std::map<std::string, pid_t> pids_;  // of the nodes that run it
   std::uint64_t refused_ = 0;

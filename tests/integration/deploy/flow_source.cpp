@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Module of board a, in versions chosen by a definition: without and with variables that board b reads from it.
+// Module of board a, in versions chosen by a definition: without and with variables that board b reads from it. Also as
+// a process module (FLOW_AS_PROCESS).
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 
@@ -29,4 +30,16 @@ void onRun() {
 }
 
 INDUROP_STATE(turns)
+#if defined(FLOW_AS_PROCESS)
+int main() {
+  if (irp::initPeriodExe() < 0) {
+    return 1;
+  }
+  while (irp::waitPeriod()) {
+    onRun();
+  }
+  return 0;
+}
+#else
 INDUROP_MODULE(run = &::onRun)
+#endif

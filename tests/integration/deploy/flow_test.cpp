@@ -9,6 +9,26 @@ namespace {
 
 class Flow : public FlowTest {};
 
+class FlowOfProcess : public FlowTest {
+ protected:
+  FlowOfProcess() { source_is_process_ = true; }
+};
+
+TEST_F(FlowOfProcess, New_variables_are_sent_from_their_first_run_on_and_the_nodes_go_on) {
+  Judge judge(board("b"));
+  bring("new", "new");
+  EXPECT_THAT(why(deploy(plant(), {"--dry-run"}).json(), board("a"), "source"),
+              HasSubstr("what it carries is known when its new process runs"));
+  EXPECT_EQ(SeenNode(board("a")).find("xt::flow"), std::nullopt) << "nothing was changed";
+  const Outcome done = deploy(plant());
+  ASSERT_EQ(done.code, 0) << done.err << agent("a").err() << agent("b").err();
+  EXPECT_THAT(why(done.json(), board("a"), "source"), HasSubstr("new: "));
+  EXPECT_TRUE(flows());
+  EXPECT_THAT(mirrored("b"), testing::ElementsAre("xt::a_turns", "xt::flow", "xt::wide"));
+  expect_untouched();
+  expect_sound(judge);
+}
+
 TEST_F(Flow, New_variables_are_sent_from_their_first_run_on_and_the_nodes_go_on) {
   Judge judge(board("b"));
   bring("new", "new");

@@ -203,6 +203,29 @@ TEST_F(ReloadProcess, A_new_process_that_is_killed_at_any_moment_leaves_one_that
   EXPECT_EQ(module("process").restarts.load(), 0U);
 }
 
+TEST_F(ReloadProcess, A_new_process_brings_variables_that_stay_when_it_returns) {
+  start_and_wait({process("rambler_process.exe", "")});
+  ASSERT_TRUE(runs_reach("process", 20));
+  const std::string gains = version(1, "rambler_gains_process.exe");
+  EXPECT_CONTAINS(reload({"process", gains, "--dry-run"}).out, "new       nt::gained, nt::pair, nt::limit");
+  EXPECT_EQ(indurop({"get", "nt::gained", "--node", node()}).code, 1) << "nothing has changed";
+  const Outcome done = reload({"process", gains, "--health", "0s"});
+  ASSERT_EQ(done.code, 0) << done.err;
+  EXPECT_CONTAINS(done.out, "new       nt::gained, nt::pair, nt::limit");
+  EXPECT_TRUE(runs_more());
+  expect_walked_all();
+  EXPECT_TRUE(wait_until([&] { return value<std::int64_t>("nt::gained") == 2 * value<std::int64_t>("nt::walked"); }));
+  ASSERT_EQ(reload({"process", version(2, "rambler_process.exe"), "--health", "0s"}).code, 0);
+  EXPECT_TRUE(runs_more());
+  expect_walked_all();
+  const auto left = value<std::int64_t>("nt::gained");
+  EXPECT_TRUE(runs_more());
+  EXPECT_EQ(value<std::int64_t>("nt::gained"), left);
+  ASSERT_EQ(reload({"process", version(3, "rambler_gains_process.exe"), "--health", "0s"}).code, 0);
+  EXPECT_TRUE(wait_until([&] { return value<std::int64_t>("nt::gained") > left; }));
+  expect_walked_all();
+}
+
 // Those of the next process are wrong: it ends, and the one that has handed over continues.
 TEST_F(ReloadProcess, Bytes_that_the_new_process_rejects_stay_with_the_previous_one) {
   start_and_wait({process("rambler_by_process.exe", "")});

@@ -19,14 +19,15 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from exchange_test import Cell, McapFile, numbers_of  # noqa: E402
 
-STEPS = {"rambler_process": 3, "rambler_process_other": 8}  # in each run, and the number of runs modulo 5 in addition
+# In each run, and the number of runs modulo 5 in addition. The last one brings nt::gained, twice as much.
+STEPS = {"rambler_process": 3, "rambler_process_other": 8, "rambler_gains_process": 3}
 
 
 class ProcessCell(Cell):
     """A node with one process module, press.exe."""
 
     def __init__(self, options, folder):
-        self.copies, self.steps = 0, {}  # by digest of the file
+        self.copies, self.steps, self.gains = 0, {}, set()  # by digest of the file
         super().__init__(options, folder)
         text = self.configuration.read_text().replace("press.so", "press.exe").replace(
             "<name>press</name><moduletype>thread</moduletype>", "<name>press</name><moduletype>process</moduletype>")
@@ -40,7 +41,10 @@ class ProcessCell(Cell):
         program.write_bytes((self.modules / f"{version}.exe").read_bytes() + str(self.copies).encode())
         program.chmod(0o755)
         os.replace(program, self.folder / "press.exe")
-        self.steps[self.digest_of(self.folder / "press.exe")] = STEPS[version]
+        digest = self.digest_of(self.folder / "press.exe")
+        self.steps[digest] = STEPS[version]
+        if version == "rambler_gains_process":
+            self.gains.add(digest)
 
     def counted(self):
         done = self.indurop("get", "nt::walked", "-o", "json", "--node", self.name)
@@ -69,8 +73,13 @@ def runs_of(file):
 def judge(cell, recording):
     """Returns how many runs continued what the run before them kept, at an exchange and otherwise."""
     file = McapFile(recording)
-    named = sorted((int(words["first_run"]), cell.steps[words["sha256"]]) for name, words in file.records
-                   if name == "indurop.version" and words["module"] == "press")
+    versions = sorted((int(words["first_run"]), words["sha256"]) for name, words in file.records
+                      if name == "indurop.version" and words["module"] == "press")
+    named = [(first, cell.steps[digest]) for first, digest in versions]
+    gained = dict(numbers_of(file, "nt::gained", "<q"))
+    both = [(log, value) for log, value in numbers_of(file, "nt::walked", "<q") if log in gained]
+    assert all(gained[log] == 2 * value for log, value in both), "what it brings is recorded with the run that wrote it"
+    assert len(both) > 0 or not cell.gains.intersection(digest for _, digest in versions), "what it brings is not recorded"
     walked = numbers_of(file, "nt::walked", "<q")
     at, now, last, last_rest, carried, continued = 0, None, None, None, 0, 0
     for log, number, _, faulted, restarted, exchanged in runs_of(file):
@@ -101,8 +110,10 @@ def exchange_at_random(cell, choice):
         if what == "restarted":
             (cell.folder / f"{cell.copies}.exe").write_bytes((cell.folder / "press.exe").read_bytes())  # next to the recording
             (cell.folder / f"{cell.copies}.exe").chmod(0o755)
-            cell.install(choice.choice(list(STEPS)))
+            cell.install(choice.choice(list(STEPS)[:2]))  # a start brings no variables
             os.kill(before, signal.SIGKILL)
+            while cell.pid() in (0, before):
+                time.sleep(0.01)
         else:
             cell.install(choice.choice(list(STEPS)))
             client = cell.open("reload", "press", "--node", cell.name, "--health", "30s")
@@ -113,8 +124,8 @@ def exchange_at_random(cell, choice):
                 assert cell.indurop("reload", "press", "--back", "--node", cell.name).returncode == 0
             else:
                 os.kill(cell.pid(), signal.SIGKILL)
-            assert client.wait() == 5
-            assert cell.pid() == before
+            assert client.wait() == 5, (what, client.returncode, client.stderr.read())
+            assert cell.pid() == before, what
 
 
 def recordings_are_repeated_with_all_processes(cell, seed):
