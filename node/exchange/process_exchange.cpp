@@ -26,30 +26,12 @@ constexpr std::chrono::milliseconds kProcessPoll{1};
 }  // namespace
 
 ProcessExchange::ProcessExchange(ExchangeContext& context, std::uint32_t module, bool held)
-    : VersionExchange(context, module, held), processes_(context.parts.processes) {}
-
-void ProcessExchange::begin(const operate::ReloadRequest& request) {
-  running_ = processes_.program(module_);
-  if (!accept(request, running_.digest)) {
-    step_ = Step::Over;
-    return;
-  }
-  other_.program.file = request_.file.empty() ? context_.files[module_] : std::filesystem::path(request_.file);
-  CandidateTask task{context_.parts.config,     module_,
-                     other_.program.file,       context_.parts.store,
-                     context_.allowed[module_], context_.parts.libraries[module_]};
-  task.may_grow = held_ || context_.parts.may_grow;
-  if (!request_.dry_run) {
-    task.keep_for = context_.parts.node;
-    task.process = processes_.pid(module_);
-  }
-  preparation_ = std::make_unique<CandidateThread>(std::move(task));
-}
+    : ProgramExchange(context, module, held, false) {}
 
 void ProcessExchange::go_on(rt::MonoTime now) {
   switch (step_) {
     case Step::Preparing:
-      return preparation_->is_done() ? prepared() : void();
+      return go_on_checking();
     case Step::Starting:
       return await_ready(now);
     case Step::Ready:
@@ -67,32 +49,20 @@ void ProcessExchange::go_on(rt::MonoTime now) {
   }
 }
 
-void ProcessExchange::prepared() {
-  Candidate candidate = preparation_->take();
-  preparation_.reset();
-  if (is_given_up_) {
-    answer(CommandResult::Failed, kGivenUp);
-    step_ = Step::Over;
-  } else if (is_wanted(candidate)) {
-    note_not_kept(candidate);
-    variables_ = std::move(candidate.variables);
-    other_uses_ = candidate.library.uses();
-    other_.program.mark = candidate.mark;
-    launch();
-  } else {
-    step_ = Step::Over;
+void ProcessExchange::go_on_checking() {
+  switch (check()) {
+    case Progress::Working:
+      return;
+    case Progress::Answered:
+      step_ = Step::Over;
+      return;
+    case Progress::Ready:
+      return launch();
   }
 }
 
 bool ProcessExchange::is_wanted(const Candidate& candidate) {
-  report_.errors = candidate.errors;
-  report_.needs_restart = candidate.needs_restart;
-  report_.to = candidate.digest;
-  if (!report_.errors.empty()) {
-    answer(CommandResult::Refused, count_errors(report_));
-  } else if (report_.from == report_.to) {
-    answer(CommandResult::Unchanged, "this version runs already");
-  } else if (record().state.load() != ModuleState::Running) {
+  if (record().state.load() != ModuleState::Running) {
     answer(CommandResult::Refused, "its process does not run, so no other one can follow it");
   } else if (request_.dry_run) {
     report_.plan.compared = false;
@@ -105,11 +75,8 @@ bool ProcessExchange::is_wanted(const Candidate& candidate) {
 }
 
 void ProcessExchange::launch() {
-  if (!variables_.let_appear(context_.parts.store)) {
-    answer(CommandResult::Failed, "another version has brought other variables meanwhile; repeat the command");
-    step_ = Step::Over;
-    return;
-  }
+  running_ = processes_.program(module_);
+  other_.program = checked_;
   tape::ProcessKeyframes::remove(context_.parts.node, module_, tape::ProcessKeyframes::Of::Next);
   const auto launched = processes_.launch_next_to(module_, other_.program.file);
   if (!launched) {
@@ -118,12 +85,6 @@ void ProcessExchange::launch() {
     return;
   }
   other_.pid = launched.value();
-  other_.program.digest = report_.to;
-  if (context_.track_of(module_) != nullptr) {
-    const std::string file = std::filesystem::absolute(other_.program.file).string();
-    other_.program.version = context_.parts.tape->versions().add(module_, report_.to, file);
-    context_.offer_to_track(module_, other_uses_);
-  }
   slot().ready.store(0);
   slot().successor.store(other_.pid, std::memory_order_release);
   deadline_ = rt::MonoClock::now() + kStartLimit;
@@ -182,8 +143,7 @@ void ProcessExchange::go_back() {
   const rt::MonoTime now = rt::MonoClock::now();
   switch (step_) {
     case Step::Preparing:
-      is_given_up_ = true;
-      return;
+      return give_up();
     case Step::Starting:
     case Step::Ready:
       return abort(kGivenUp, now);
@@ -199,9 +159,7 @@ void ProcessExchange::go_back() {
 }
 
 void ProcessExchange::end() {
-  if (preparation_ != nullptr) {
-    (void)preparation_->take();
-  }
+  end_check();
   answer(CommandResult::Ending, "the node ends");
   if (step_ == Step::Over || other_.pid <= 0) {
     step_ = Step::Over;

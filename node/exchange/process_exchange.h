@@ -12,17 +12,15 @@
 #include <optional>
 #include <string>
 
-#include "node/exchange/candidate_thread.h"
-#include "node/exchange/version_exchange.h"
+#include "node/exchange/program_exchange.h"
 #include "store/tape/process_keyframes.h"
 
 namespace indurop::node {
 
-class ProcessExchange : public VersionExchange {
+class ProcessExchange : public ProgramExchange {
  public:
   ProcessExchange(ExchangeContext& context, std::uint32_t module, bool held);
 
-  void begin(const operate::ReloadRequest& request) override;
   void go_on(rt::MonoTime now) override;
   void go_back() override;
   void end() override;
@@ -39,7 +37,7 @@ class ProcessExchange : public VersionExchange {
 
  private:
   enum class Step {
-    Preparing,  // the file is checked, on a thread of its own
+    Preparing,
     Starting,   // the new process prepares itself
     Ready,      // it waits for the tick from which on it may follow
     Following,  // it executes the runs from that tick on
@@ -57,9 +55,8 @@ class ProcessExchange : public VersionExchange {
 
   static constexpr const char* kProcessRunsNoMore = "the process that runs has faulted or was stopped meanwhile";
 
-  void prepared();
-  // Returns false if it was answered that nothing is exchanged.
-  bool is_wanted(const Candidate& candidate);
+  void go_on_checking();
+  bool is_wanted(const Candidate& candidate) override;
   void launch();
   void compare(rt::MonoTime now);
   void await_ready(rt::MonoTime now);
@@ -82,22 +79,16 @@ class ProcessExchange : public VersionExchange {
   void withdraw(const std::string& why, rt::MonoTime now);
   // The other one runs from now on, and the one that ran becomes the other one.
   void swap();
-  void keep_running_file();
   [[nodiscard]] bool has_ended(Other& other) const;
   [[nodiscard]] scheduler::ProcessSlot& slot() const noexcept { return context_.parts.run.process_slots()[module_]; }
 
-  Processes& processes_;
   Step step_ = Step::Preparing;
   bool runs_new_ = false;
-  bool is_given_up_ = false;  // while it is prepared
-  std::unique_ptr<CandidateThread> preparation_;
   Other other_;
-  ModuleLibrary::Uses other_uses_;  // of the process that is not supervised
-  VariableChange variables_;        // that the new one brings
-  Processes::Program running_;      // of the process that runs
-  std::uint64_t follow_from_ = 0;   // tick
-  rt::MonoTime deadline_{};         // of this step
-  bool was_asked_ = false;          // the other one to end
+  Processes::Program running_;     // of the process that runs
+  std::uint64_t follow_from_ = 0;  // tick
+  rt::MonoTime deadline_{};        // of this step
+  bool was_asked_ = false;         // the other one to end
   std::uint64_t skipped_before_ = 0;
   std::uint64_t overruns_before_ = 0;
   std::uint64_t judged_from_ = 0;  // tick after which an overrun is one of the new process

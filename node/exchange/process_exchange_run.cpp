@@ -10,7 +10,6 @@
 #include "core/rt/clock.h"
 #include "node/exchange/process_exchange.h"
 #include "node/exchange/version_text.h"
-#include "node/modules/kept_versions.h"
 
 namespace indurop::node {
 namespace {
@@ -79,20 +78,7 @@ void ProcessExchange::swap() {
   const pid_t former = processes_.pid(module_);
   running_ = other_.program;
   other_ = {former, 0, processes_.replace(module_, other_.pid, running_)};
-  ModuleLibrary& of_running = context_.parts.libraries[module_];
-  const ModuleLibrary::Uses former_uses = of_running.uses();
-  of_running.set_uses(std::exchange(other_uses_, former_uses));
-}
-
-// If the process that runs dies, it is started again with the same program, although its file may have been replaced by
-// that of the version that failed.
-void ProcessExchange::keep_running_file() {
-  const auto same =
-      find_version_file(context_.parts.node, running_.digest, {running_.file}, running_.file.parent_path());
-  if (same) {
-    running_.file = *same;
-    (void)processes_.set_program(module_, running_);
-  }
+  swap_uses();
 }
 
 void ProcessExchange::note_exchanged(rt::MonoTime now) {
@@ -163,7 +149,8 @@ void ProcessExchange::go_back(Exchange::Reason reason, rt::MonoTime now) {
 void ProcessExchange::await_return(rt::MonoTime now) {
   if (slot().followed.load(std::memory_order_acquire) == other_.pid) {
     swap();
-    keep_running_file();
+    find_kept(running_);  // if it dies, it is started again with the same program
+    (void)processes_.set_program(module_, running_);
     report_.tick = slot().follow_tick.load() + 1;
     report_.left_out = record().skipped.load() - skipped_before_;
     runs_new_ = false;

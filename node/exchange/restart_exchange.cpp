@@ -5,7 +5,6 @@
 
 #include "core/rt/clock.h"
 #include "node/exchange/version_text.h"
-#include "node/modules/kept_versions.h"
 
 namespace indurop::node {
 namespace {
@@ -20,30 +19,10 @@ constexpr std::chrono::milliseconds kFirstCheck{100};  // until then, one that c
 
 }  // namespace
 
-void RestartExchange::begin(const operate::ReloadRequest& request) {
-  if (!accept(request, processes_.program(module_).digest)) {
-    step_ = Step::Over;
-    return;
-  }
-  other_.file = request_.file.empty() ? context_.files[module_] : std::filesystem::path(request_.file);
-  CandidateTask task{context_.parts.config,
-                     module_,
-                     other_.file,
-                     context_.parts.store,
-                     context_.allowed[module_],
-                     context_.parts.libraries[module_]};
-  task.ends_first = true;
-  if (!request_.dry_run && processes_.pid(module_) > 0) {
-    task.keep_for = context_.parts.node;
-    task.process = processes_.pid(module_);
-  }
-  preparation_ = std::make_unique<CandidateThread>(std::move(task));
-}
-
 void RestartExchange::go_on(rt::MonoTime now) {
   switch (step_) {
     case Step::Preparing:
-      return preparation_->is_done() ? prepared() : void();
+      return go_on_checking();
     case Step::Ready:
       return context_.parts.run.tick.load() >= tick_ ? leave(Step::Leaving, now) : void();
     case Step::Leaving:
@@ -61,33 +40,24 @@ void RestartExchange::go_on(rt::MonoTime now) {
   }
 }
 
-void RestartExchange::prepared() {
-  const Candidate candidate = preparation_->take();
-  preparation_.reset();
-  if (is_given_up_) {
-    answer(CommandResult::Failed, kGivenUp);
-    step_ = Step::Over;
-  } else if (is_wanted(candidate)) {
-    note_not_kept(candidate);
-    other_.digest = report_.to;
-    other_.mark = candidate.mark;
-    tick_ = held_ ? kNotYet : next_macro_period(context_);
-    step_ = Step::Ready;
-  } else {
-    step_ = Step::Over;
+void RestartExchange::go_on_checking() {
+  switch (check()) {
+    case Progress::Working:
+      return;
+    case Progress::Answered:
+      step_ = Step::Over;
+      return;
+    case Progress::Ready:
+      other_ = checked_;
+      tick_ = held_ ? kNotYet : next_macro_period(context_);
+      step_ = Step::Ready;
   }
 }
 
 bool RestartExchange::is_wanted(const Candidate& candidate) {
-  report_.errors = candidate.errors;
-  report_.needs_restart = candidate.needs_restart;
-  report_.to = candidate.digest;
   report_.plan.why_not = "its process ends before the next one is launched";
-  if (!report_.errors.empty()) {
-    answer(CommandResult::Refused, count_errors(report_));
-  } else if (report_.from == report_.to) {
-    answer(CommandResult::Unchanged, "this version runs already");
-  } else if (!is_up()) {
+  (void)candidate.variables.list(context_.parts.store, report_.plan);
+  if (!is_up()) {
     answer(CommandResult::Refused, "its process does not run: `indurop start` launches its new file");
   } else if (!request_.lossy) {
     answer(CommandResult::Refused, "values would be lost; --lossy exchanges it nevertheless");
@@ -123,6 +93,7 @@ void RestartExchange::launch_other(Step to, rt::MonoTime now) {
     to = Step::Relaunching;
   } else {
     other_ = processes_.set_program(module_, std::move(other_));
+    swap_uses();
   }
   launched_ = now;
   deadline_ = processes_.start(module_) ? now + kLaunchLimit : rt::MonoTime::min();
@@ -164,13 +135,9 @@ void RestartExchange::check_health(rt::MonoTime now) {
   }
 }
 
-// The program of the previous version is launched from the file that was kept, if its own was replaced.
 void RestartExchange::go_back(Exchange::Reason reason, rt::MonoTime now) {
   reason_ = reason;
-  if (const auto same =
-          find_version_file(context_.parts.node, other_.digest, {other_.file}, other_.file.parent_path())) {
-    other_.file = *same;
-  }
+  find_kept(other_);
   leave(Step::Returning, now);
 }
 
@@ -197,8 +164,7 @@ void RestartExchange::await_previous(rt::MonoTime now) {
 void RestartExchange::go_back() {
   switch (step_) {
     case Step::Preparing:
-      is_given_up_ = true;
-      return;
+      return give_up();
     case Step::Ready:
       answer(CommandResult::Failed, kGivenUp);
       return conclude();
@@ -228,10 +194,7 @@ void RestartExchange::conclude() {
 }
 
 void RestartExchange::end() {
-  if (preparation_ != nullptr) {
-    (void)preparation_->take();
-    preparation_.reset();
-  }
+  end_check();
   answer(CommandResult::Ending, "the node ends");
   conclude();
 }

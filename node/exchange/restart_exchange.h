@@ -5,19 +5,16 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
-#include "node/exchange/candidate_thread.h"
-#include "node/exchange/version_exchange.h"
+#include "node/exchange/program_exchange.h"
 
 namespace indurop::node {
 
-class RestartExchange : public VersionExchange {
+class RestartExchange : public ProgramExchange {
  public:
   RestartExchange(ExchangeContext& context, std::uint32_t module, bool held)
-      : VersionExchange(context, module, held), processes_(context.parts.processes) {}
+      : ProgramExchange(context, module, held, true) {}
 
-  void begin(const operate::ReloadRequest& request) override;
   void go_on(rt::MonoTime now) override;
   void go_back() override;
   void end() override;
@@ -34,7 +31,7 @@ class RestartExchange : public VersionExchange {
 
  private:
   enum class Step {
-    Preparing,  // the file is checked, on a thread of its own
+    Preparing,
     Ready,      // it waits for its tick
     Leaving,    // the process is to end
     Launching,  // that of the new version prepares itself
@@ -43,8 +40,8 @@ class RestartExchange : public VersionExchange {
     Watched,  // it runs
     Over,
   };
-  void prepared();
-  bool is_wanted(const Candidate& candidate);
+  void go_on_checking();
+  bool is_wanted(const Candidate& candidate) override;
   void leave(Step to, rt::MonoTime now);
   // Launches one of `other_` when the process has ended.
   void launch_other(Step to, rt::MonoTime now);
@@ -57,12 +54,10 @@ class RestartExchange : public VersionExchange {
   [[nodiscard]] bool is_up() const noexcept;
   [[nodiscard]] bool is_down(rt::MonoTime now) const noexcept;
 
-  Processes& processes_;
   Step step_ = Step::Preparing;
   std::uint64_t tick_ = 0;
   bool runs_new_ = false;
   bool is_given_up_ = false;
-  std::unique_ptr<CandidateThread> preparation_;
   Processes::Program other_;  // of the version that does not run
   rt::MonoTime launched_{};
   rt::MonoTime deadline_{};                                                 // of this step

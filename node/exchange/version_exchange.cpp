@@ -23,16 +23,16 @@ void ExchangeContext::offer_to_track(std::uint32_t module, const ModuleLibrary& 
   }
 }
 
-void ExchangeContext::offer_to_track(std::uint32_t module, const ModuleLibrary::Uses& of_version) const {
-  std::vector<tape::VariableUse> uses;
-  for (const auto& [name, use] : of_version) {
+void ExchangeContext::offer_to_track(std::uint32_t module, const ModuleLibrary::Uses& uses) const {
+  std::vector<tape::VariableUse> on_tape;
+  for (const auto& [name, use] : uses) {
     // The place that now has the name of a variable whose type changes is not the one that this version uses.
     const vars::DirectoryEntry* const entry = parts.store.find(name);
     if (entry != nullptr && entry->type_hash == use.type) {
-      uses.push_back({static_cast<std::uint32_t>(entry - parts.store.directory().data()), use.reads, use.writes});
+      on_tape.push_back({static_cast<std::uint32_t>(entry - parts.store.directory().data()), use.reads, use.writes});
     }
   }
-  for (const std::uint32_t variable : parts.tape->offer(module, uses)) {
+  for (const std::uint32_t variable : parts.tape->offer(module, on_tape)) {
     parts.console.warning("{} is too large for the tape of module {} and is not recorded until the node starts again",
                           parts.store.schema().variables[parts.store.directory()[variable].schema_index].name,
                           parts.config.modules[module].name);

@@ -68,6 +68,7 @@ bool is_read_only_now(const dl_phdr_info& info, std::uintptr_t page, std::uintpt
     const std::uintptr_t begin = info.dlpi_addr + part.p_vaddr;
     for (std::uintptr_t page = begin - begin % page_bytes; part.p_type == PT_LOAD && page < begin + part.p_memsz;
          page += page_bytes) {
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): the dynamic linker states numbers
       auto* const byte = reinterpret_cast<unsigned char*>(std::max(page, begin));
       if ((part.p_flags & PF_W) != 0 && !is_read_only_now(info, page, page_bytes)) {
         (void)__atomic_fetch_or(byte, 0, __ATOMIC_RELAXED);

@@ -152,6 +152,16 @@ TEST_F(ReloadBackground, A_process_ends_and_one_of_the_new_version_is_launched) 
   EXPECT_EQ(sut.wait(), 0) << sut.err();
 }
 
+TEST_F(ReloadBackground, A_process_brings_variables) {
+  start_and_wait(
+      {kOther, {.file = "rambler_process.exe", .name = "process", .type = "process", .operation = "non-real"}});
+  const Outcome done = reload({"process", copy_of("rambler_gains_process.exe"), "--lossy", "--health", "0s"});
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_CONTAINS(done.out, "new       nt::gained, nt::pair, nt::limit");
+  EXPECT_EQ(value<std::int64_t>("nt::gained"), 11);
+  EXPECT_EQ(module("process").state.load(), ModuleState::Running);
+}
+
 TEST_F(ReloadBackground, A_process_that_is_released_by_a_signal_is_launched_again) {
   start_and_wait({kOther,
                   {.file = "legacy.exe",
