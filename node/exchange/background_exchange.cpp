@@ -98,6 +98,7 @@ void BackgroundExchange::enter_new(rt::MonoTime now) {
     return abort(why);
   }
   report_.tick = context_.parts.run.tick.load();
+  other_is_unsound_ = record().state.load() == ModuleState::Faulted;
   swap(report_.plan.with_state && runs);
   runs_new_ = true;
   const bool is_watched = runs && (held_ || request_.health_ns > 0);

@@ -15,7 +15,7 @@ using scheduler::ModuleState;
 using scheduler::VersionState;
 
 constexpr std::chrono::seconds kLaunchLimit{5};        // until a process is ready to be released
-constexpr std::chrono::milliseconds kFirstCheck{100};  // until then, one that cannot run at all has ended
+constexpr std::chrono::milliseconds kFirstCheck{100};  // until then, a program that cannot run at all has ended
 
 }  // namespace
 
@@ -95,7 +95,7 @@ void RestartExchange::launch_other(Step to, rt::MonoTime now) {
     other_ = processes_.set_program(module_, std::move(other_));
     swap_uses();
   }
-  launched_ = now;
+  executes_since_ = now;
   deadline_ = processes_.start(module_) ? now + kLaunchLimit : rt::MonoTime::min();
   step_ = to;
 }
@@ -104,7 +104,12 @@ void RestartExchange::await_new(rt::MonoTime now) {
   if (is_down(now)) {
     return go_back(Exchange::Reason::Fault, now);
   }
-  if (!is_up() || now < launched_ + kFirstCheck) {
+  const Processes::Program& program = processes_.program(module_);
+  if (!is_up() || !executes(processes_.pid(module_), program.file, program.mark)) {
+    executes_since_ = now;
+    return;
+  }
+  if (now < executes_since_ + kFirstCheck && record().state.load() != ModuleState::Exited) {
     return;
   }
   if (is_given_up_) {

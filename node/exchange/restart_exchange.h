@@ -59,7 +59,7 @@ class RestartExchange : public ProgramExchange {
   bool runs_new_ = false;
   bool is_given_up_ = false;
   Processes::Program other_;  // of the version that does not run
-  rt::MonoTime launched_{};
+  rt::MonoTime executes_since_{};
   rt::MonoTime deadline_{};                                                 // of this step
   scheduler::Exchange::Reason reason_ = scheduler::Exchange::Reason::None;  // of the way back
 };
