@@ -33,6 +33,8 @@ struct Chain {
   std::vector<Part> parts;
   std::size_t at = 0;
   std::optional<recording::McapMessage> message;  // the next one
+  std::uint64_t part_begin_ns = 0;                // log time of the first message of its part
+  std::uint64_t end_ns = 0;                       // log time of the last message before its part
   std::map<std::pair<std::size_t, std::uint32_t>, std::pair<std::uint64_t, std::size_t>>
       last;  // run of a module, its part
 };
@@ -92,12 +94,17 @@ bool goes_on(Chain& chain) {
 
 Result<void, Problem> advance(Chain& chain) {
   for (; chain.at < chain.parts.size(); ++chain.at) {
+    const bool is_first = !chain.message;
     auto next = chain.parts[chain.at].reader.next();
     if (!next) {
       return std::move(next).error();
     }
+    if (!*next && chain.message) {
+      chain.end_ns = std::max(chain.end_ns, chain.message->log_time_ns);
+    }
     chain.message = *std::move(next);
     if (chain.message) {
+      chain.part_begin_ns = is_first ? chain.message->log_time_ns : chain.part_begin_ns;
       return goes_on(chain) ? Result<void, Problem>()
                             : two_of_one(chain.parts[chain.at].file, chain.parts[chain.at].names.front());
     }
@@ -122,11 +129,22 @@ Result<Part, Problem> open(const std::filesystem::path& file) {
   return part;
 }
 
+// A part begins with the known values, at the time of its first keyframe, for example. In the part before it, other
+// modules may have run since then: the values follow these runs.
+std::uint64_t log_time_of(const Chain& chain) {
+  const recording::McapMessage& message = *chain.message;
+  const auto place = chain.parts[chain.at].sources.channels.find(message.channel);
+  const bool is_value =
+      place != chain.parts[chain.at].sources.channels.end() && place->second.kind == ChannelKind::Value;
+  const bool is_known = is_value && chain.at > 0 && message.log_time_ns == chain.part_begin_ns;
+  return is_known ? std::max(message.log_time_ns, chain.end_ns) : message.log_time_ns;
+}
+
 Result<void, Problem> copy_messages(std::vector<Chain>& chains, recording::McapWriter& writer, Joined& joined) {
   for (;;) {
     Chain* first = nullptr;
     for (Chain& chain : chains) {
-      if (chain.message && (first == nullptr || chain.message->log_time_ns < first->message->log_time_ns)) {
+      if (chain.message && (first == nullptr || log_time_of(chain) < log_time_of(*first))) {
         first = &chain;
       }
     }
@@ -134,7 +152,7 @@ Result<void, Problem> copy_messages(std::vector<Chain>& chains, recording::McapW
       return writer.close();
     }
     const recording::McapMessage& message = *first->message;
-    if (auto written = writer.write(first->parts[first->at].channels[message.channel], message.log_time_ns,
+    if (auto written = writer.write(first->parts[first->at].channels[message.channel], log_time_of(*first),
                                     message.publish_time_ns, message.sequence, message.data.view);
         !written) {
       return written;

@@ -179,6 +179,27 @@ def a_recording_is_the_sum_of_its_pieces(cell, seed):
     print(f"  seed {seed}: {len(parts)} parts, {[name for _, name in versions]}")
 
 
+def a_piece_may_begin_between_a_keyframe_and_its_run(cell):
+    """Runs of the other module end in between: they are in the piece before, and come before the values with which this one begins."""
+    recording = cell.folder / "between.mcap"
+    cell.install("same")
+    live = cell.start("--record", recording)
+    time.sleep(3)
+    live.send_signal(signal.SIGTERM)
+    assert live.wait() == 0, live.stderr.read()
+    file, tried = McapFile(recording), 0
+    begin = min(log for topic in set(file.topics.values()) for chunk in file.chunks for log, _, _ in file.messages_of(chunk, topic))
+    for keyframe in [log for chunk in file.chunks for log, _, _ in file.messages_of(chunk, "indurop/keyframes/press")]:
+        end = min((log for log, module, _, _ in file.runs() if module == "press" and log > keyframe), default=0)
+        between = [log for log, module, _, _ in file.runs() if module == "other" and keyframe < log < end]
+        if between:
+            at = max(between) + 1 - begin
+            pieces = [cut(cell, recording, f"between.{at}.0.mcap", 0, at - 1), cut(cell, recording, f"between.{at}.1.mcap", at, 0)]
+            assert replay_of(cell, join(cell, random.Random(at), pieces, f"joined.{at}.mcap")) == replay_of(cell, recording)
+            tried += 1
+    assert tried > 0
+
+
 def a_variable_has_its_name_whatever_type_has_it_now(cell):
     """A part that begins after its type has changed and changed back names it as the others do, and can be replayed."""
     def install(version):
@@ -222,6 +243,7 @@ def main():
     first = int(os.environ.get("INDUROP_PARTS_SEED", random.randrange(1 << 31)))
     with tempfile.TemporaryDirectory() as folder:
         cell = Cell(options, pathlib.Path(folder).resolve())
+        a_piece_may_begin_between_a_keyframe_and_its_run(cell)
         a_variable_has_its_name_whatever_type_has_it_now(cell)
         shutil.rmtree(cell.folder / "state")
         for seed in range(first, first + int(os.environ.get("INDUROP_PARTS_ROUNDS", "2"))):
