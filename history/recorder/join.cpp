@@ -133,11 +133,13 @@ Result<Part, Problem> open(const std::filesystem::path& file) {
 // modules may have run since then: the values follow these runs.
 std::uint64_t log_time_of(const Chain& chain) {
   const recording::McapMessage& message = *chain.message;
-  const auto place = chain.parts[chain.at].sources.channels.find(message.channel);
-  const bool is_value =
-      place != chain.parts[chain.at].sources.channels.end() && place->second.kind == ChannelKind::Value;
-  const bool is_known = is_value && chain.at > 0 && message.log_time_ns == chain.part_begin_ns;
-  return is_known ? std::max(message.log_time_ns, chain.end_ns) : message.log_time_ns;
+  if (chain.at == 0 || message.log_time_ns != chain.part_begin_ns) {
+    return message.log_time_ns;
+  }
+  const auto& channels = chain.parts[chain.at].sources.channels;
+  const auto place = channels.find(message.channel);
+  const bool is_value = place != channels.end() && place->second.kind == ChannelKind::Value;
+  return is_value ? std::max(message.log_time_ns, chain.end_ns) : message.log_time_ns;
 }
 
 Result<void, Problem> copy_messages(std::vector<Chain>& chains, recording::McapWriter& writer, Joined& joined) {

@@ -24,11 +24,6 @@ void carry(const ModuleMemory& from, const ModuleMemory& to) {
 
 }  // namespace
 
-bool BackgroundExchange::would_run() const noexcept {
-  const ModuleState state = record().state.load();
-  return state == ModuleState::Running || state == ModuleState::Exited;
-}
-
 void BackgroundExchange::go_on(rt::MonoTime now) {
   switch (step_) {
     case Step::Preparing:

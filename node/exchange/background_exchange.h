@@ -48,7 +48,6 @@ class BackgroundExchange : public ThreadExchange {
   void swap(bool carries);
   void abort(const std::string& why);
   void discard_other();
-  [[nodiscard]] bool would_run() const noexcept override;
 
   Step step_ = Step::Preparing;
   std::uint64_t tick_ = 0;

@@ -19,13 +19,16 @@ const char* why_not_exchanged(const config::Module& module, bool simulated) noex
 std::unique_ptr<VersionExchange> make_exchange(ExchangeContext& context, std::uint32_t index, bool held) {
   const config::Module& module = context.parts.config.modules[index];
   const bool is_in_background = module.operation == scheduler::Operation::NonReal;
-  if (module.type == ModuleType::Thread) {
-    return is_in_background ? std::unique_ptr<VersionExchange>(new BackgroundExchange(context, index, held))
-                            : std::make_unique<ModuleExchange>(context, index, held);
+  if (module.type == ModuleType::Process) {
+    if (is_in_background || module.signal != 0) {
+      return std::make_unique<RestartExchange>(context, index, held);
+    }
+    return std::make_unique<ProcessExchange>(context, index, held);
   }
-  return is_in_background || module.signal != 0
-             ? std::unique_ptr<VersionExchange>(new RestartExchange(context, index, held))
-             : std::make_unique<ProcessExchange>(context, index, held);
+  if (is_in_background) {
+    return std::make_unique<BackgroundExchange>(context, index, held);
+  }
+  return std::make_unique<ModuleExchange>(context, index, held);
 }
 
 }  // namespace indurop::node

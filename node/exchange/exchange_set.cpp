@@ -7,6 +7,7 @@
 #include "core/rt/copy_text.h"
 #include "node/exchange/exchange_kind.h"
 #include "node/exchange/schedule_change.h"
+#include "scheduler/module_state_text.h"
 
 namespace indurop::node {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 using operate::SetRequest;
 using scheduler::CommandResult;
 using State = operate::SetReport::State;
-using scheduler::ModuleState;
 
 constexpr std::size_t kShownDigits = 12;
 constexpr std::uint32_t kNoSuchModule = ~std::uint32_t{0};
@@ -62,12 +62,6 @@ bool ExchangeSet::is_under_way() const noexcept {
       break;
   }
   return false;
-}
-
-bool ExchangeSet::is_up(std::uint32_t module) const noexcept {
-  const ModuleState state = context_.parts.run.modules()[module].state.load();
-  const bool is_in_background = context_.parts.config.modules[module].operation == scheduler::Operation::NonReal;
-  return state == ModuleState::Running || (is_in_background && state == ModuleState::Exited);
 }
 
 bool ExchangeSet::is_open(std::uint32_t module) const noexcept {
@@ -127,7 +121,7 @@ std::string ExchangeSet::begin(const SetRequest& request) {
       report_.needs_restart = true;
       return fmt::format("module {} is none that is exchanged while it runs", module.name);
     }
-    if (!is_up(index)) {
+    if (!scheduler::is_up(run.modules()[index].state.load())) {
       report_.needs_restart = true;
       return fmt::format("module {} does not run", module.name);
     }
@@ -211,7 +205,7 @@ void ExchangeSet::go_on() {
       return follow_exchange();
     case State::Ready:
       for (const auto& [module, exchange] : all_) {
-        if (!is_up(module)) {
+        if (!scheduler::is_up(context_.parts.run.modules()[module].state.load())) {
           return fail(fmt::format("module {} does not run any more", context_.parts.run.modules()[module].name));
         }
       }

@@ -31,8 +31,6 @@ class ExchangeSet {
   [[nodiscard]] bool is_open(std::uint32_t module) const noexcept;
 
  private:
-  // Whether it runs, or in the background has done its work.
-  [[nodiscard]] bool is_up(std::uint32_t module) const noexcept;
   // Returns why the command is refused; empty: it is accepted.
   std::string accept(const std::string& single);
   std::string begin(const operate::SetRequest& request);

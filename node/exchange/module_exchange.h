@@ -58,9 +58,6 @@ class ModuleExchange : public ThreadExchange {
   void has_left();
   void abort(const std::string& why);
   void discard_other();
-  [[nodiscard]] bool would_run() const noexcept override {
-    return record().state.load() == scheduler::ModuleState::Running;
-  }
 
   Step step_ = Step::Preparing;
   bool back_ = false;             // to the previous version

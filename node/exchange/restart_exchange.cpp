@@ -69,11 +69,6 @@ bool RestartExchange::is_wanted(const Candidate& candidate) {
   return false;
 }
 
-bool RestartExchange::is_up() const noexcept {
-  const ModuleState state = record().state.load();
-  return state == ModuleState::Running || state == ModuleState::Exited;
-}
-
 bool RestartExchange::is_down(rt::MonoTime now) const noexcept {
   const ModuleState state = record().state.load();
   return state == ModuleState::Restarting || state == ModuleState::Faulted || now > deadline_;

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "node/exchange/program_exchange.h"
+#include "scheduler/module_state_text.h"
 
 namespace indurop::node {
 
@@ -51,7 +52,7 @@ class RestartExchange : public ProgramExchange {
   void go_back(scheduler::Exchange::Reason reason, rt::MonoTime now);
   void conclude();
   // Returns true if the process is ready to run, or has done its work.
-  [[nodiscard]] bool is_up() const noexcept;
+  [[nodiscard]] bool is_up() const noexcept { return scheduler::is_up(record().state.load()); }
   [[nodiscard]] bool is_down(rt::MonoTime now) const noexcept;
 
   Step step_ = Step::Preparing;

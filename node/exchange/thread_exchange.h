@@ -9,6 +9,7 @@
 
 #include "node/exchange/candidate_thread.h"
 #include "node/exchange/version_exchange.h"
+#include "scheduler/module_state_text.h"
 
 namespace indurop::node {
 
@@ -32,7 +33,7 @@ class ThreadExchange : public VersionExchange {
   // Waits for calls in progress. Returns false if there is no new version yet.
   bool end_preparation();
   // Whether the new version would run now, if it were exchanged.
-  [[nodiscard]] virtual bool would_run() const noexcept = 0;
+  [[nodiscard]] bool would_run() const noexcept { return scheduler::is_up(record().state.load()); }
   [[nodiscard]] ModuleLibrary& running() const noexcept { return context_.parts.libraries[module_]; }
 
   // NOLINTBEGIN(cppcoreguidelines-non-private-member-variables-in-classes,misc-non-private-member-variables-in-classes)

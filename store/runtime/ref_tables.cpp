@@ -121,10 +121,10 @@ std::map<std::uint64_t, schema::Access> RefTables::access() {
 }
 
 BindingProblem RefTables::describe(Table& table, const abi::Ref& ref, const Attachment& to) {
-  (void)facts_of(table);
+  const ModuleFacts& facts = facts_of(table);
   BindingProblem problem;
-  problem.used = table.facts->uses(ref.name_hash);
-  const schema::Variable* mine = table.facts->variable(ref.name_hash);
+  problem.used = facts.uses(ref.name_hash);
+  const schema::Variable* mine = facts.variable(ref.name_hash);
   const vars::DirectoryEntry* entry = to.store().find(ref.name_hash);
   if (entry == nullptr) {
     problem.text = fmt::format(
