@@ -50,9 +50,10 @@ class Phases : public Killed {
     }));
     return deployer;
   }
-  // Deploys a plant until a does well and b, whose module does not start before it is let, does not yet.
+  // Deploys a plant until a does well and b, whose module does not start before it is let, does not yet. What differs
+  // outside of modules makes both nodes start again: without that, the module would start while b checks.
   Program& deploy_until_healthy() {
-    const std::string slow = manifest("slow.xml", {{"a", "other"}, {"b", "slow"}});
+    const std::string slow = manifest("slow.xml", {{"a", "other"}, {"b", "slow"}}, "<spin>off</spin>");
     Program& deployer = start_indurop({"deploy", slow, "--health", "300ms"});
     EXPECT_TRUE(wait_until([&] { return has_printed(deployer, board("a"), "healthy"); }));
     EXPECT_FALSE(has_printed(deployer, board("b"), "healthy"));
