@@ -240,7 +240,8 @@ TEST(FmuCalls, A_master_that_is_killed_leaves_no_node) {
   master.kill_and_wait();
   EXPECT_TRUE(test::wait_until([&node] { return vars::running_node(node) == 0; }));
   const Running2 next(about);
-  EXPECT_EQ(only_node(pid), "") << "the next one removes its memory";
+  // The next one removes its memory, unless one of another test is just doing that.
+  EXPECT_TRUE(test::wait_until([pid] { return only_node(pid).empty(); }));
 }
 
 TEST(FmuCalls, A_master_may_ignore_what_becomes_of_its_children) {

@@ -68,8 +68,15 @@ class SeveralModules : public NodeTest {
     ASSERT_TRUE(comes_to(State::Ready)) << report().problem;
   }
   void exchange(std::uint64_t ahead = 500) {
+    lost_before_ = block().lost_ticks.load();
     tick_ = block().tick.load() + ahead;
     ASSERT_EQ(request({Act::Exchange, "", {}, tick_}), CommandResult::Done);
+  }
+  // The machine may lose the tick itself; then it is the next one that is not lost.
+  void expect_exchanged_in_the_tick(const char* name) {
+    const std::uint64_t lost = block().lost_ticks.load() - lost_before_;
+    EXPECT_GE(module(name).version_tick.load(), tick_) << name;
+    EXPECT_LE(module(name).version_tick.load(), tick_ + lost) << name;
   }
   // No run of the press was left out: it has counted each of them, but `lost`.
   void expect_all_counted(std::int64_t lost = 0) {
@@ -83,6 +90,7 @@ class SeveralModules : public NodeTest {
   }
 
   std::uint64_t tick_ = 0;
+  std::uint64_t lost_before_ = 0;
   std::optional<vars::RunFile> run_;
 };
 
@@ -92,7 +100,7 @@ TEST_F(SeveralModules, Are_exchanged_at_the_tick_that_was_said_and_stay) {
   exchange();
   ASSERT_TRUE(comes_to(State::Exchanged)) << report().problem;
   for (const char* name : {"press", "other"}) {
-    EXPECT_EQ(module(name).version_tick.load(), tick_) << name;
+    expect_exchanged_in_the_tick(name);
     EXPECT_EQ(module(name).version.load(), 2U);
     EXPECT_EQ(module(name).version_state.load(), scheduler::VersionState::Watched);
   }
@@ -231,8 +239,8 @@ TEST_F(WithAProcess, It_follows_in_the_tick_and_stays) {
   exchange();
   ASSERT_TRUE(comes_to(State::Exchanged)) << report().problem;
   EXPECT_NE(pid(), before);
-  EXPECT_EQ(module("process").version_tick.load(), tick_);
-  EXPECT_EQ(module("press").version_tick.load(), tick_);
+  expect_exchanged_in_the_tick("process");
+  expect_exchanged_in_the_tick("press");
   EXPECT_EQ(::kill(before, 0), 0) << "it is ready to return";
   ASSERT_EQ(request({Act::Decide, "second", {}, 0}), CommandResult::Done);
   ASSERT_TRUE(comes_to(State::None));

@@ -8,7 +8,7 @@ import sys
 import tempfile
 
 from page_server import prepared
-from run import Cell, copy_configuration
+from run import Cell, copy_cell
 
 JOB = """ASK tray = "Which tray has the parts?" CHOICE "left", "right", "none"
 ASK count = "How many parts are in tray ", tray, "?" 1 TO 40 TIMEOUT 600s
@@ -38,7 +38,7 @@ def add_job(folder):
 def main():
     options = prepared(__doc__, "--cell", "--io-module")
     with tempfile.TemporaryDirectory() as folder:
-        copy_configuration(str(options.cell), str(options.io_module), folder)
+        copy_cell(options, folder)
         add_job(pathlib.Path(folder))
         cell = AskingCell(options, folder)
         cell.node = "web_question"

@@ -14,6 +14,13 @@ from cell_test import copy_configuration  # noqa: E402
 from page_server import PATIENCE, PageServer, prepared  # noqa: E402
 
 
+def copy_cell(options, folder):
+    """Copies the cell's files. Its I/O station is a normal process, which a browser may keep waiting: more time for it."""
+    copy_configuration(str(options.cell), str(options.io_module), folder)
+    station = pathlib.Path(folder) / "ioconfig.xml"
+    station.write_text(station.read_text().replace('timeout="100ms"', 'timeout="2s"'))
+
+
 class Cell(PageServer):
     node = "web_test"
 
@@ -80,7 +87,7 @@ class Cell(PageServer):
 def main():
     options = prepared(__doc__, "--cell", "--io-module")
     with tempfile.TemporaryDirectory() as folder:
-        copy_configuration(str(options.cell), str(options.io_module), folder)
+        copy_cell(options, folder)
         cell = Cell(options, folder)
         return cell.run("page.mjs")
 
