@@ -245,15 +245,22 @@ void Schedule::join() noexcept {
 }
 
 void Schedule::publish_priorities() const noexcept {
-  const bool realtime = parts_.settings.realtime;
+  for (const Member& member : members_) {
+    member.state->record->fifo_priority = priority_of(member.task.index);
+  }
+}
+
+int Schedule::priority_of(std::uint32_t module) const noexcept {
+  const auto has = [module](std::span<TaskState* const> states) {
+    return std::any_of(states.begin(), states.end(),
+                       [module](const TaskState* state) { return state->task.index == module; });
+  };
   for (const auto& band : bands_) {
-    for (const TaskState* state : band->tasks()) {
-      state->record->fifo_priority = realtime ? band->plan().fifo_priority : 0;
-    }
-    for (const TaskState* state : band->processes()) {
-      state->record->fifo_priority = realtime ? kSporadicProcessPriority : 0;
+    if (has(band->tasks()) || has(band->processes())) {
+      return !parts_.settings.realtime ? 0 : has(band->tasks()) ? band->plan().fifo_priority : kSporadicProcessPriority;
     }
   }
+  return 0;
 }
 
 Band* Schedule::find_band(std::uint32_t module) const noexcept {

@@ -17,6 +17,7 @@ using scheduler::ModuleState;
 
 constexpr std::chrono::seconds kArrivalStartLimit{10};
 constexpr std::chrono::milliseconds kArrivalPoll{1};
+constexpr const char* kOtherVariables = "another version has brought other variables meanwhile; repeat the command";
 
 }  // namespace
 
@@ -33,9 +34,11 @@ void Arrivals::begin(const Rechecked& next, const SchedulePlan& plan) {
     One& one = all_.emplace_back();
     one.place = place;
     one.index = plan.indices[place];
-    const auto digest = keys::digest_of_file(next.config.modules[place].file);
-    one.loads =
-        one.index == SchedulePlan::kNoModule || !digest || digest->digest != parts_.libraries[one.index].digest();
+    one.is_process = configured(one).type == scheduler::ModuleType::Process;
+    one.is_in_background = configured(one).operation == scheduler::Operation::NonReal;
+    const auto digest = keys::digest_of_file(configured(one).file);
+    one.loads = one.index == SchedulePlan::kNoModule || one.is_process || !digest ||
+                digest->digest != parts_.libraries[one.index].digest();
   }
   load_next();
 }
@@ -64,6 +67,7 @@ bool Arrivals::is_loaded() {
       needs_restart_ = needs_restart_ && candidate.needs_restart;
       refused_ = next_->config.modules[all_[loaded_].place].name;
     }
+    all_[loaded_].digest = candidate.digest;
     all_[loaded_].variables = std::move(candidate.variables);
     all_[loaded_++].library = std::move(candidate.library);
     load_next();
@@ -93,23 +97,36 @@ bool Arrivals::place(SchedulePlan& plan, const scheduler::RunBlockSetup& setup,
         return false;
       }
       plan.indices[one.place] = one.index = index;
+    } else if (one.is_process) {
+      parts_.processes.set_file(one.index, configured(one).file, one.digest);
+      parts_.libraries[one.index].set_uses(one.library.uses());
     } else if (one.loads) {
       replace_code(one);
     }
-    const auto task = std::find_if(tasks.begin(), tasks.end(),
-                                   [&one](const scheduler::Task& each) { return each.index == one.place; });
-    if (one.loads && task != tasks.end()) {
-      scheduler::Task offered = *task;
-      offered.index = one.index;
-      offered.after.clear();
-      offered.run = parts_.libraries[one.index].functions().run;
-      if (offered.operation == scheduler::Operation::Sporadic) {
-        offered.condition = parts_.libraries[one.index].functions().condition;
-      }
-      parts_.engine.offer(offered);
+    if (one.loads) {
+      offer(one, tasks);
     }
   }
   return true;
+}
+
+// What runs in the background has no task.
+void Arrivals::offer(const One& one, const std::vector<scheduler::Task>& tasks) {
+  const auto task = std::find_if(tasks.begin(), tasks.end(),
+                                 [&one](const scheduler::Task& each) { return each.index == one.place; });
+  if (task == tasks.end()) {
+    return;
+  }
+  scheduler::Task offered = *task;
+  offered.index = one.index;
+  offered.after.clear();
+  if (!one.is_process) {
+    offered.run = parts_.libraries[one.index].functions().run;
+    if (offered.operation == scheduler::Operation::Sporadic) {
+      offered.condition = parts_.libraries[one.index].functions().condition;
+    }
+  }
+  parts_.engine.offer(offered);
 }
 
 // All that is counted by modules grows by one.
@@ -121,6 +138,7 @@ std::uint32_t Arrivals::add(One& one, const scheduler::ModuleSetup& setup) {
   parts_.config.modules.push_back(next_->config.modules[one.place]);
   parts_.libraries.push_back(std::move(one.library));
   parts_.failsafe.add(parts_.config.modules.back());
+  parts_.processes.add(*index, parts_.config.modules.back());
   parts_.exchanges.add(next_->check.facts[one.place].file.access,
                        configured_uses_of(next_->check, one.place, next_->config.modules[one.place].name));
   return *index;
@@ -138,65 +156,127 @@ void Arrivals::replace_code(One& one) {
 }
 
 bool Arrivals::is_started(rt::MonoTime now) {
-  if (call_ != nullptr) {
-    if (!parts_.phases.ended(*call_, now, kArrivalStartLimit)) {
-      return false;
-    }
-    scheduler::ModuleRecord& record = parts_.run.modules()[all_[started_].index];
-    if (!parts_.phases.conclude(std::move(call_))) {
-      record.state.store(ModuleState::Stopped);  // it is in no schedule
-      failure_ = fmt::format("module {}: {}", record.name, record.last_fault);
-      refused_ = record.name;
+  while (started_ < all_.size()) {
+    if (!start(all_[started_], now)) {
       return false;
     }
     ++started_;
   }
-  for (; started_ < all_.size(); ++started_) {
-    const std::uint32_t index = all_[started_].index;
-    if (auto* start = parts_.libraries[index].functions().start; start != nullptr) {
-      call_ = parts_.phases.begin(index, "start", start);
-      failure_ = call_ == nullptr ? "start() could not be called" : "";
-      return false;
-    }
-  }
   for (One& one : all_) {
     if (!one.variables.let_appear(parts_.store)) {
-      failure_ = "another version has brought other variables meanwhile; repeat the command";
-      return false;
+      return fail(one, kOtherVariables);
     }
   }
   return true;
 }
 
+// Returns true when it has started.
+bool Arrivals::start(One& one, rt::MonoTime now) {
+  if (one.is_process) {
+    return one.is_in_background || start_process(one, now);
+  }
+  if (call_ == nullptr) {
+    auto* const start = parts_.libraries[one.index].functions().start;
+    if (start == nullptr) {
+      one.begun = true;
+      return true;
+    }
+    call_ = parts_.phases.begin(one.index, "start", start);
+    return call_ == nullptr && fail(one, "start() could not be called");
+  }
+  if (!parts_.phases.ended(*call_, now, kArrivalStartLimit)) {
+    return false;
+  }
+  one.begun = parts_.phases.conclude(std::move(call_));
+  if (!one.begun) {
+    record(one).state.store(ModuleState::Stopped);  // it is in no schedule
+  }
+  return one.begun || fail(one, record(one).last_fault);
+}
+
+// Its variables appear first: it binds them when it begins.
+bool Arrivals::start_process(One& one, rt::MonoTime now) {
+  if (!one.begun) {
+    if (!one.variables.let_appear(parts_.store)) {
+      return fail(one, kOtherVariables);
+    }
+    one.begun = true;
+    one.launched = now;
+    return !parts_.processes.start_aside(one.index) && fail(one, "its process cannot be launched");
+  }
+  const ModuleState state = record(one).state.load();
+  if (state == ModuleState::Faulted) {
+    return fail(one, record(one).last_fault);
+  }
+  if (state != ModuleState::Running && now - one.launched > kArrivalStartLimit) {
+    return fail(one, configured(one).signal != 0 ? "it does not expect its signal within 10 s"
+                                                 : "it has not called irp::waitPeriod() within 10 s");
+  }
+  return state == ModuleState::Running;
+}
+
+bool Arrivals::fail(const One& one, const std::string& why) {
+  failure_ = fmt::format("module {}: {}", configured(one).name, why);
+  refused_ = configured(one).name;
+  return false;
+}
+
 // Nothing of them is entered before the first tick of their schedule.
-void Arrivals::enter() {
+bool Arrivals::enter() {
   for (const One& one : all_) {
+    if (one.is_process && !one.is_in_background && record(one).state.load() != ModuleState::Running) {
+      return fail(one, record(one).last_fault);
+    }
+  }
+  for (const One& one : all_) {
+    if (one.is_in_background) {
+      continue;
+    }
+    if (one.is_process) {
+      parts_.processes.let_run(one.index, parts_.engine.prepared_priority(one.index));
+      continue;
+    }
     if (tape::Track* track = parts_.tape == nullptr ? nullptr : parts_.tape->of(one.index)) {
       track->note_restart();
     }
-    parts_.run.modules()[one.index].state.store(ModuleState::Running);
+    record(one).state.store(ModuleState::Running);
     parts_.engine.enable(one.index);
   }
+  return true;
 }
 
 void Arrivals::settle() {
+  for (const One& one : all_) {
+    if (one.is_in_background) {
+      begin_in_background(one);
+    }
+  }
   all_.clear();
   started_ = 0;
 }
 
-std::vector<std::uint32_t> Arrivals::drop() {
-  std::vector<std::uint32_t> started;
-  for (std::size_t i = 0; i < started_; ++i) {
-    parts_.run.modules()[all_[i].index].state.store(ModuleState::Running);  // it has a stop() to be called
-    started.push_back(all_[i].index);
+void Arrivals::begin_in_background(const One& one) {
+  if (one.is_process ? !parts_.processes.start(one.index) : !parts_.normal_threads.launch(one.index)) {
+    record(one).state.store(ModuleState::Faulted);
+    parts_.console.error("module {}: it could not be started in the background", record(one).name);
   }
-  for (std::size_t i = started_; i < all_.size(); ++i) {
-    if (all_[i].index != SchedulePlan::kNoModule) {
-      parts_.run.modules()[all_[i].index].state.store(ModuleState::Stopped);
+}
+
+std::vector<std::uint32_t> Arrivals::drop() {
+  std::vector<std::uint32_t> begun;
+  for (const One& one : all_) {
+    if (one.begun) {
+      begun.push_back(one.index);
+      if (!one.is_process) {
+        record(one).state.store(ModuleState::Running);  // it has a stop() to be called
+      }
+    } else if (one.index != SchedulePlan::kNoModule) {
+      record(one).state.store(ModuleState::Stopped);
     }
   }
-  settle();
-  return started;
+  all_.clear();
+  started_ = 0;
+  return begun;
 }
 
 void Arrivals::end() {
@@ -207,11 +287,13 @@ void Arrivals::end() {
   while (call_ != nullptr && !parts_.phases.ended(*call_, rt::MonoClock::now(), Phases::kGrace)) {
     rt::sleep_until(rt::MonoClock::now() + kArrivalPoll);
   }
-  if (call_ != nullptr && parts_.phases.conclude(std::move(call_))) {
-    ++started_;
+  if (call_ != nullptr) {
+    all_[started_].begun = parts_.phases.conclude(std::move(call_));
   }
-  for (std::size_t i = 0; i < started_; ++i) {
-    parts_.run.modules()[all_[i].index].state.store(ModuleState::Loaded);  // its stop() is called with the others
+  for (const One& one : all_) {
+    if (one.begun && !one.is_process) {
+      record(one).state.store(ModuleState::Loaded);  // its stop() is called with the others
+    }
   }
 }
 

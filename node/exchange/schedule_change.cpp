@@ -186,16 +186,22 @@ void ScheduleChange::make_plan() {
   delay_periods(tasks_, setup_, static_cast<std::int64_t>(next_grid_.begin) * basic);
 }
 
+// Of the file that a module runs.
+const std::string& ScheduleChange::digest_of(std::uint32_t module) const noexcept {
+  return parts_.config.modules[module].type == ModuleType::Process ? parts_.processes.program(module).digest
+                                                                   : parts_.libraries[module].digest();
+}
+
 // The code of modules stays as it is.
 void ScheduleChange::compare_files() {
   for (std::size_t i = 0; i < plan_.indices.size(); ++i) {
     const std::uint32_t index = plan_.indices[i];
     const config::Module& module = next_.config.modules[i];
-    if (index == SchedulePlan::kNoModule || module.type != ModuleType::Thread || record(index).ended) {
+    if (index == SchedulePlan::kNoModule || record(index).ended) {
       continue;
     }
     const auto digest = keys::digest_of_file(module.file);
-    if (!digest || digest->digest != parts_.libraries[index].digest()) {
+    if (!digest || digest->digest != digest_of(index)) {
       plan_.restarts.push_back(fmt::format("module {} runs another version than {}; `indurop reload {}` exchanges it",
                                            module.name, module.file.string(), module.name));
     }
@@ -247,8 +253,10 @@ void ScheduleChange::begin_waiting() {
     step_ = Step::Ready;
     return;
   }
-  arrivals_.enter();
   waits_for_any_tick_ = false;
+  if (!arrivals_.enter()) {
+    return fail(arrivals_.failure());
+  }
   if (!propose(grid().ticks)) {
     return fail("no macro period began in time");
   }
@@ -285,10 +293,19 @@ void ScheduleChange::follow() {
     step_ = Step::Leaving;
   }
   if (step_ == Step::Leaving && change == Engine::Change::None) {
-    ended_.insert(ended_.end(), plan_.ended.begin(), plan_.ended.end());
-    plan_.ended.clear();
+    note_leavers();
     step_ = Step::Idle;
     follow_held();
+  }
+}
+
+void ScheduleChange::note_leavers() {
+  std::vector<std::uint32_t> followers;
+  for (const std::uint32_t place : plan_.added) {
+    followers.push_back(plan_.indices[place]);
+  }
+  for (const std::uint32_t module : std::exchange(plan_.ended, {})) {
+    leavers_.push_back({module, true, followers});
   }
 }
 
@@ -297,7 +314,6 @@ void ScheduleChange::settle() {
   scheduler::RunBlock& run = parts_.run;
   previous_ = config_of_schedule(parts_.config, run);
   grid_ = next_grid_;
-  arrivals_.settle();
   held_.counts = waits_for_tick();
   for (std::size_t i = 0; i < plan_.indices.size(); ++i) {
     settle_module(i, plan_.indices[i]);
@@ -305,6 +321,7 @@ void ScheduleChange::settle() {
   for (const std::uint32_t module : plan_.ended) {
     record(module).ended = true;
   }
+  arrivals_.settle();
   parts_.config.file = next_.config.file;
   parts_.config.minimum_period = next_.config.minimum_period;
   follow_priorities(run);
@@ -337,7 +354,9 @@ void ScheduleChange::settle_module(std::size_t place, std::uint32_t index) {
 
 void ScheduleChange::fail(const std::string& why) {
   parts_.engine.drop_change();
-  ended_ = arrivals_.drop();
+  for (const std::uint32_t module : arrivals_.drop()) {
+    leavers_.push_back({module, false, {}});
+  }
   step_ = parts_.engine.follow_change() == Engine::Change::None ? Step::Idle : Step::Leaving;
   plan_.ended.clear();
   answer(CommandResult::Failed, why);
@@ -370,8 +389,8 @@ void ScheduleChange::respond(operate::ScheduleReport report, CommandResult resul
   scheduler::answer_command(record(0), result);
 }
 
-std::vector<std::uint32_t> ScheduleChange::take_ended() {
-  return step_ == Step::Idle ? std::exchange(ended_, {}) : std::vector<std::uint32_t>();
+std::vector<ScheduleChange::Leaver> ScheduleChange::take_leavers() {
+  return step_ == Step::Idle ? std::exchange(leavers_, {}) : std::vector<Leaver>();
 }
 
 void ScheduleChange::end() {

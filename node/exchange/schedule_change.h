@@ -39,6 +39,7 @@ class ScheduleChange {
     Placement placement;
     BoardRoutes& routes;
     BoardMirror& mirror;
+    const Processes& processes;
   };
 
   ScheduleChange(const Parts& parts, const Arrivals::Parts& arrivals)
@@ -52,8 +53,14 @@ class ScheduleChange {
   void poll(rt::MonoTime now, const std::string& others);
   // Returns true while commands to modules have to wait.
   [[nodiscard]] bool is_switching() const noexcept { return step_ == Step::Building || step_ == Step::Waiting; }
-  // Returns the modules that have left the schedule and are to be stopped. Each once.
-  std::vector<std::uint32_t> take_ended();
+  // A module that is to be stopped.
+  struct Leaver {
+    std::uint32_t module = 0;
+    bool has_run = false;                   // else it was started for a schedule that has not taken over
+    std::vector<std::uint32_t> followers;  // modules that the schedule has had since
+  };
+  // Returns each once.
+  std::vector<Leaver> take_leavers();
   // Called when the schedule has ended.
   void end();
   // The ticks in which modules are exchanged, too.
@@ -122,6 +129,8 @@ class ScheduleChange {
   void refuse(const std::string& why);
   void answer(scheduler::CommandResult result, const std::string& text);
   void respond(operate::ScheduleReport report, scheduler::CommandResult result, const std::string& text) const;
+  void note_leavers();
+  [[nodiscard]] const std::string& digest_of(std::uint32_t module) const noexcept;
   [[nodiscard]] scheduler::ModuleRecord& record(std::uint32_t module) const noexcept {
     return parts_.run.modules()[module];
   }
@@ -138,7 +147,7 @@ class ScheduleChange {
   std::vector<scheduler::Task> tasks_;  // of `next_`, by the indices of the run block
   Arrivals arrivals_;
   bool waits_for_any_tick_ = false;         // in each macro period that began a run was in progress
-  std::vector<std::uint32_t> ended_;        // to be stopped
+  std::vector<Leaver> leavers_;
   std::optional<config::Config> previous_;  // of the schedule before
   MacroGrid grid_;                          // of macro periods
   MacroGrid next_grid_;                     // of those of `next_`

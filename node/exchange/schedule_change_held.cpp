@@ -71,7 +71,7 @@ void ScheduleChange::compare_routes() {
     const config::Module& module = next_.config.modules[place];
     const std::uint32_t index = plan_.indices[place];
     const auto digest = keys::digest_of_file(module.file);
-    if (index != SchedulePlan::kNoModule && digest && digest->digest == parts_.libraries[index].digest()) {
+    if (index != SchedulePlan::kNoModule && digest && digest->digest == digest_of(index)) {
       continue;  // it was there before
     }
     const auto sent = std::find_if(next.outgoing.begin(), next.outgoing.end(), [&](const mirror::Outgoing& out) {
@@ -101,8 +101,9 @@ void ScheduleChange::enter(std::uint64_t tick) {
   if (step_ != Step::Ready) {
     return;  // nothing changes, or it has failed
   }
-  arrivals_.enter();
-  if (parts_.engine.change_at({tick, 1, tick})) {
+  if (!arrivals_.enter()) {
+    fail(arrivals_.failure());
+  } else if (parts_.engine.change_at({tick, 1, tick})) {
     step_ = Step::Waiting;
   } else {
     fail(fmt::format("it missed the tick of the change, {}: it was in tick {} when the order came", tick,

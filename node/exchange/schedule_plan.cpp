@@ -113,7 +113,8 @@ std::string schedule_difference(const Module& before, const Module& after) {
 
 class ScheduleComparison {
  public:
-  ScheduleComparison(const Config& running, const scheduler::RunBlock& run) : running_(running), run_(run) {}
+  ScheduleComparison(const Config& running, const scheduler::RunBlock& run)
+      : running_(running), run_(run), simulated_(run.virtual_ns.load() != 0) {}
 
   SchedulePlan run(const Config& next, const config::CheckResult& check) {
     for (const Module& module : next.modules) {
@@ -170,8 +171,8 @@ class ScheduleComparison {
 
   void add_arrival(const Module& module) {
     plan_.added.push_back(static_cast<std::uint32_t>(plan_.indices.size() - 1));
-    if (module.type != ModuleType::Thread || module.operation == Operation::NonReal) {
-      restart(fmt::format("module {} is added, and is no thread of the schedule", module.name));
+    if (module.type == ModuleType::Process && simulated_) {
+      restart(fmt::format("module {} is a process, and a simulation has only those it began with", module.name));
     }
   }
 
@@ -193,6 +194,7 @@ class ScheduleComparison {
 
   const Config& running_;
   const scheduler::RunBlock& run_;
+  bool simulated_;
   SchedulePlan plan_;
   std::uint32_t new_ = 0;  // modules that the node never had
 };

@@ -39,4 +39,12 @@ void FailSafe::apply(std::size_t module) noexcept {
   }
 }
 
+void FailSafe::apply_except(std::size_t module, const std::function<bool(std::uint64_t)>& is_written_by_others) {
+  for (const Write& write : writes_[module]) {
+    if (!is_written_by_others(write.variable.name_hash)) {
+      (void)store_.write(write.variable, write.offset, write.bytes);
+    }
+  }
+}
+
 }  // namespace indurop::node

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ class FailSafe {
   void add(const config::Module& module);
   // Writes all values of the module. Real-time safe.
   void apply(std::size_t module) noexcept;
+  // The same without the variables, by the hashes of their names, that others write from now on. Not real-time safe.
+  void apply_except(std::size_t module, const std::function<bool(std::uint64_t)>& is_written_by_others);
 
  private:
   struct Write {

@@ -53,8 +53,8 @@ void ModuleCommands::poll_schedule(rt::MonoTime now) {
   schedule_.poll(now, works_.empty()
                           ? exchanged
                           : fmt::format("module {} is being started or stopped", record(works_.front().module).name));
-  for (const std::uint32_t module : schedule_.take_ended()) {
-    take(module, ModuleCommand::Stop, now);
+  for (const ScheduleChange::Leaver& leaver : schedule_.take_leavers()) {
+    take(leaver.module, ModuleCommand::Stop, now, leaver);
   }
 }
 
@@ -79,11 +79,22 @@ void ModuleCommands::poll(rt::MonoTime now) {
   std::erase_if(works_, [&](Work& work) { return go_on(work, now); });
 }
 
-void ModuleCommands::take(std::uint32_t module, ModuleCommand command, rt::MonoTime now) {
+bool ModuleCommands::writes(std::uint32_t module, std::uint64_t variable) const {
+  const ModuleLibrary::Uses& uses = parts_.libraries[module].uses();
+  const std::vector<std::string>& declared = parts_.config.modules[module].writes;
+  const auto use = uses.find(variable);
+  return (use != uses.end() && use->second.writes) ||
+         std::any_of(declared.begin(), declared.end(), [variable](const std::string& name) {
+           return abi::fnv1a64(name.data(), name.size()) == variable;
+         });
+}
+
+void ModuleCommands::take(std::uint32_t module, ModuleCommand command, rt::MonoTime now,
+                          const std::optional<ScheduleChange::Leaver>& leaver) {
   const ModuleState state = record(module).state.load();
   const bool stopped = state == ModuleState::Stopped;
   const bool runs = state == ModuleState::Running || state == ModuleState::Starting;
-  Work work{module, command, Step::Leaving, now, {nullptr, [](Phases::Call* /*none*/) {}}};
+  Work work{module, command, Step::Leaving, now, {nullptr, [](Phases::Call* /*none*/) {}}, leaver};
   if ((command == ModuleCommand::Stop && stopped) || (command == ModuleCommand::Start && runs)) {
     (void)answer(work, CommandResult::Unchanged);
     return;
@@ -141,7 +152,15 @@ bool ModuleCommands::call_stop(Work& work, rt::MonoTime now) {
 // Finally writes the values declared for the case that the module is stopped.
 bool ModuleCommands::rest(Work& work, rt::MonoTime now) {
   record(work.module).state.store(ModuleState::Stopped);
-  parts_.failsafe.apply(work.module);
+  if (!work.leaver) {
+    parts_.failsafe.apply(work.module);
+  } else if (work.leaver->has_run) {
+    const std::vector<std::uint32_t>& followers = work.leaver->followers;
+    parts_.failsafe.apply_except(work.module, [&](std::uint64_t variable) {
+      return std::any_of(followers.begin(), followers.end(),
+                         [&](std::uint32_t follower) { return writes(follower, variable); });
+    });
+  }
   return work.command == ModuleCommand::Stop ? answer(work, CommandResult::Done) : begin_start(work, now);
 }
 

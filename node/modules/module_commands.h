@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -45,9 +46,11 @@ class ModuleCommands {
       : parts_(parts),
         exchanges_(exchanges, check, apart),
         schedule_(ScheduleChange::Parts{parts.options, parts.config, parts.run, parts.libraries, parts.engine,
-                                        exchanges.store, parts.console, parts.placement, parts.routes, parts.mirror},
+                                        exchanges.store, parts.console, parts.placement, parts.routes, parts.mirror,
+                                        parts.processes},
                   Arrivals::Parts{parts.config, parts.run, parts.libraries, parts.engine, exchanges.store,
-                                  parts.failsafe, exchanges_, parts.phases, parts.tape}) {
+                                  parts.failsafe, exchanges_, parts.phases, parts.processes, parts.normal_threads,
+                                  parts.console, parts.tape}) {
     exchanges_.connect(schedule_);
   }
 
@@ -66,9 +69,11 @@ class ModuleCommands {
     Step step;
     rt::MonoTime began;
     Phases::CallPointer call;
+    std::optional<ScheduleChange::Leaver> leaver;  // it is stopped because of the schedule
   };
   void poll_schedule(rt::MonoTime now);
-  void take(std::uint32_t module, scheduler::ModuleCommand command, rt::MonoTime now);
+  void take(std::uint32_t module, scheduler::ModuleCommand command, rt::MonoTime now,
+            const std::optional<ScheduleChange::Leaver>& leaver = {});
   // Returns true when the command is finished.
   bool go_on(Work& work, rt::MonoTime now);
   void leave(const Work& work, rt::MonoTime now);
@@ -78,6 +83,7 @@ class ModuleCommands {
   bool begin_start(Work& work, rt::MonoTime now);
   bool enter(Work& work);
   bool launched(Work& work, rt::MonoTime now);
+  [[nodiscard]] bool writes(std::uint32_t module, std::uint64_t variable) const;
   [[nodiscard]] scheduler::CommandResult started(std::uint32_t module) const;
   bool answer(const Work& work, scheduler::CommandResult result);
   [[nodiscard]] bool is_process(std::uint32_t module) const noexcept;

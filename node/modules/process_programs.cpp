@@ -35,23 +35,34 @@ bool Processes::note_version(Child& child) {
   const auto found = keys::digest_of_file(child.program.file);
   const std::string digest = found ? found->digest : std::string();
   const std::string before = child.program.digest;
-  const bool is_first = before.empty();
-  if (run_.deployment[0] != '\0' && (digest.empty() || (!is_first && digest != before))) {
+  if (run_.deployment[0] != '\0' && (digest.empty() || (!before.empty() && digest != before))) {
     console_.about(child.module->name)
         .error("module {}: it is not started again, because {} is not what was deployed: its SHA-256 is {}, it was {}",
                child.module->name, child.program.file.string(), digest.empty() ? "unknown" : digest, before);
     return false;
   }
-  if (digest != before) {
-    const std::string file = std::filesystem::absolute(child.program.file).string();
-    child.program.digest = digest;
-    child.program.version = tape_ == nullptr || tape_->of(child.index) == nullptr ? 0
-                            : is_first ? tape_->versions().add_first(child.index, digest, file)
-                                       : tape_->versions().add(child.index, digest, file);
-    scheduler::set_version(record(child), digest, is_first ? 0 : run_.tick.load(), scheduler::VersionState::Settled);
-  }
+  note_digest(child, digest);
   slot(child).version.store(child.program.version, std::memory_order_release);
   return true;
+}
+
+void Processes::note_digest(Child& child, const std::string& digest) {
+  if (digest == child.program.digest) {
+    return;
+  }
+  const bool is_first = child.program.digest.empty();
+  const std::string file = std::filesystem::absolute(child.program.file).string();
+  child.program.digest = digest;
+  child.program.version = tape_ == nullptr || tape_->of(child.index) == nullptr ? 0
+                          : is_first ? tape_->versions().add_first(child.index, digest, file)
+                                     : tape_->versions().add(child.index, digest, file);
+  scheduler::set_version(record(child), digest, is_first ? 0 : run_.tick.load(), scheduler::VersionState::Settled);
+}
+
+void Processes::set_file(std::uint32_t module, const std::filesystem::path& file, const std::string& digest) {
+  Child& child = *find(module);
+  child.program.file = file;
+  note_digest(child, digest);
 }
 
 pid_t Processes::pid(std::uint32_t module) const noexcept {

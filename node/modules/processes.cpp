@@ -39,12 +39,16 @@ Processes::Processes(const config::Config& config, scheduler::RunBlock& run, std
                      Console& console, FailSafe& failsafe, tape::Tape* tape)
     : run_(run), node_(std::move(node)), realtime_(realtime), console_(console), failsafe_(failsafe), tape_(tape) {
   for (std::uint32_t i = 0; i < config.modules.size(); ++i) {
-    if (config.modules[i].type == scheduler::ModuleType::Process) {
-      Child& child = children_.emplace_back();
-      child.index = i;
-      child.module = &config.modules[i];
-      child.program.file = config.modules[i].file;
-    }
+    add(i, config.modules[i]);
+  }
+}
+
+void Processes::add(std::uint32_t index, const config::Module& module) {
+  if (module.type == scheduler::ModuleType::Process) {
+    Child& child = children_.emplace_back();
+    child.index = index;
+    child.module = &module;
+    child.program.file = module.file;
   }
 }
 
@@ -169,6 +173,11 @@ void Processes::fault(Child& child, FaultKind kind, const std::string& text) {
   failsafe_.apply(child.index);
 }
 
+std::string Processes::describe_start_failure(const Child& child, int status) {
+  return describe_end(status) +
+         (child.module->signal != 0 ? " before it expected its signal" : " before it called irp::waitPeriod()");
+}
+
 void Processes::died(Child& child, int status, rt::MonoTime schedule) {
   scheduler::ModuleRecord& module = record(child);
   if (scheduler::ProcessSlot& at = slot(child); at.runner.load() == child.pid) {
@@ -185,6 +194,15 @@ void Processes::died(Child& child, int status, rt::MonoTime schedule) {
     }
     return;
   }
+  const bool was_starting = module.state.load(std::memory_order_acquire) == ModuleState::Starting;
+  const bool did_not_start = was_starting && WIFEXITED(status);
+  if (child.aside) {
+    scheduler::record_fault(module, did_not_start ? FaultKind::StartFailed : FaultKind::Exit,
+                            run_.tick.load(std::memory_order_relaxed),
+                            did_not_start ? describe_start_failure(child, status) : describe_end(status));
+    module.state.store(ModuleState::Faulted, std::memory_order_release);
+    return;
+  }
   if (child.module->operation == Operation::NonReal && WIFEXITED(status) && WEXITSTATUS(status) == 0) {
     module.state.store(ModuleState::Exited, std::memory_order_release);
     return;
@@ -194,17 +212,14 @@ void Processes::died(Child& child, int status, rt::MonoTime schedule) {
     tape_->end_of_dead(child.index,
                        {0, 0, at.release_tick.load(), at.release_ns.load(), at.start_ns.load(), rt::to_ns(schedule)});
   }
-  const bool was_starting = module.state.load(std::memory_order_acquire) == ModuleState::Starting;
   module.state.store(ModuleState::Restarting, std::memory_order_release);
   if (child.killed_for_budget) {
     fault(child, FaultKind::Budget,
           fmt::format("killed: one run took longer than its budget of {} us", module.budget_ns / 1000));
   } else if (child.killed_hanging) {
     fault(child, FaultKind::Budget, "killed: one run did not return for 10 s of real time");
-  } else if (was_starting && WIFEXITED(status)) {
-    fault(child, FaultKind::StartFailed,
-          describe_end(status) +
-              (child.module->signal != 0 ? " before it expected its signal" : " before it called irp::waitPeriod()"));
+  } else if (did_not_start) {
+    fault(child, FaultKind::StartFailed, describe_start_failure(child, status));
   } else {
     fault(child, FaultKind::Exit, describe_end(status));
   }
@@ -302,7 +317,25 @@ bool Processes::start(std::uint32_t module) {
   }
   child->stopping = false;
   child->restarts.clear();
+  child->aside = false;
   return launch(*child);
+}
+
+bool Processes::start_aside(std::uint32_t module) {
+  Child& child = *find(module);
+  child.stopping = false;
+  child.restarts.clear();
+  child.aside = true;
+  return launch(child);
+}
+
+void Processes::let_run(std::uint32_t module, int fifo_priority) {
+  Child& child = *find(module);
+  child.aside = false;
+  record(child).fifo_priority = fifo_priority;
+  if (fifo_priority > 0 && child.pid > 0) {
+    (void)rt::set_fifo_of(child.pid, fifo_priority);
+  }
 }
 
 void Processes::end_all() {

@@ -57,6 +57,14 @@ class Processes {
   void stop(std::uint32_t module, rt::MonoTime now);
   [[nodiscard]] bool has_ended(std::uint32_t module) const noexcept;
   bool start(std::uint32_t module);
+  // For a module that another schedule adds. If it is no process, nothing happens. `module` is borrowed.
+  void add(std::uint32_t index, const config::Module& module);
+  // The program of a module without a process; `digest`: its SHA-256.
+  void set_file(std::uint32_t module, const std::filesystem::path& file, const std::string& digest);
+  // Like start(), for a process that no schedule has yet: if it dies, it is neither restarted nor an event for the
+  // plant. From let_run() on it is like the others, with this FIFO priority; 0: none.
+  bool start_aside(std::uint32_t module);
+  void let_run(std::uint32_t module, int fifo_priority);
   // For an exchange of a process. The one that runs now, -1: it has died; and what it was launched from.
   [[nodiscard]] pid_t pid(std::uint32_t module) const noexcept;
   [[nodiscard]] const Program& program(std::uint32_t module) const noexcept;
@@ -89,6 +97,7 @@ class Processes {
     rt::MonoTime launched{};
     bool stopping = false;  // by command
     bool held = false;      // not restarted
+    bool aside = false;     // in no schedule yet
     rt::MonoTime asked{};
   };
   Child* find(std::uint32_t module) noexcept;
@@ -102,6 +111,8 @@ class Processes {
   bool launch(Child& child);
   // Notes which version its file is now. Returns false if it is not the one that was deployed.
   bool note_version(Child& child);
+  void note_digest(Child& child, const std::string& digest);
+  static std::string describe_start_failure(const Child& child, int status);
   void died(Child& child, int status, rt::MonoTime schedule);
   void fault(Child& child, scheduler::FaultKind kind, const std::string& text);
   void plan_restart(Child& child, rt::MonoTime schedule);

@@ -163,7 +163,7 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
     if (!follows) {
       take_priority(record);  // a successor prepares itself without it, so that it delays nothing that runs
     }
-    lock_memory(record);
+    lock_memory(run, record);
   }
   mapping_ = &mapping;
   slot_ = &slot;
@@ -215,8 +215,10 @@ void Enrolment::take_priority(const ModuleRecord& record) {
   }
 }
 
-void Enrolment::lock_memory(const ModuleRecord& record) {
-  if (record.fifo_priority > 0 && may_lock_everything()) {
+// One that another schedule adds gets its priority later.
+void Enrolment::lock_memory(const RunBlock& run, const ModuleRecord& record) {
+  const bool is_scheduled = record.operation != scheduler::Operation::NonReal;
+  if (is_scheduled && run.obtained.fifo != 0 && may_lock_everything()) {
     (void)rt::lock_memory();
   }
 }

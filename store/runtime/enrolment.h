@@ -68,7 +68,7 @@ class Enrolment {
   void start_keyframes();
   void close_records();
   static void take_priority(const scheduler::ModuleRecord& record);
-  static void lock_memory(const scheduler::ModuleRecord& record);
+  static void lock_memory(const scheduler::RunBlock& run, const scheduler::ModuleRecord& record);
   void finish_run() noexcept;
   bool take_release() noexcept;
   void check_node();

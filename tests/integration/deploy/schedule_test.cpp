@@ -82,6 +82,41 @@ TEST_F(Rescheduled, Modules_are_added_and_ended_and_come_back_by_a_rollback) {
   EXPECT_TRUE(both_run(first_));
 }
 
+// A process waits for the tick of all boards; what runs in the background begins after it.
+TEST_F(Rescheduled, Processes_are_added_and_go_with_a_rollback) {
+  start_with({press_of("a"), ticks_of("a")}, {press_of("b"), ticks_of("b")});
+  std::filesystem::copy_file(PROCESS_FILE, folder() / "helper.exe");
+  std::ofstream(folder() / "nap.sh") << "#!/bin/sh\nexec sleep 1000\n";
+  ::chmod(path("nap.sh").c_str(), 0755);
+  const std::string next = plant_of({press_of("a", "20ms"), ticks_of("a")}, {press_of("b"), ticks_of("b")});
+  text_.insert(text_.find("</board>"),
+               "<module><filename>./helper.exe</filename><moduletype>process</moduletype><operationtype>periodic"
+               "</operationtype><period>10ms</period><priority>3</priority></module>"
+               "<module><filename>./nap.sh</filename><moduletype>process</moduletype><operationtype>non-real"
+               "</operationtype></module>\n");
+  std::ofstream(next) << text_;
+  const Outcome done = deploy(next);
+  ASSERT_EQ(done.code, 0) << done.err << agent("a").err();
+  EXPECT_EQ(planned(done.json(), "a", "helper"), "added") << done.out;
+  EXPECT_EQ(planned(done.json(), "a", "nap"), "added");
+  expect_not_restarted();
+  const auto runs_helper = [&] {
+    const auto ran = seen("a").ran;
+    return std::any_of(ran.begin(), ran.end(), [](const auto& one) {
+      return std::find(one.second.begin(), one.second.end(), "helper") != one.second.end();
+    });
+  };
+  EXPECT_TRUE(wait_until(runs_helper));
+
+  const Outcome back = indurop({"rollback", "--health", "300ms", "-o", "json"});
+  EXPECT_EQ(back.code, 0) << back.err << agent("a").err();
+  EXPECT_EQ(planned(back.json(), "a", "helper"), "ended") << back.out;
+  EXPECT_TRUE(wait_until([&] { return seen("a").ended == std::set<std::string>{"helper", "nap"}; }));
+  EXPECT_FALSE(runs_helper());
+  expect_not_restarted();
+  EXPECT_TRUE(both_run(first_));
+}
+
 TEST_F(Rescheduled, Files_and_schedule_change_in_one_tick) {
   start_with({press_of("a"), ticks_of("a")}, {press_of("b"), ticks_of("b")});
   bring("a", "press_a_second");

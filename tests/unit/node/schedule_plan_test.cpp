@@ -31,6 +31,7 @@ class SchedulePlans : public testing::Test {
     config::Config running = read(before);
     auto check = config::check_config(running, {.files = false, .machine = false});
     block_ = scheduler::make_block(make_run_setup(running, check, "test", {0, true}));
+    block_->virtual_ns.store(is_simulated_ ? 1 : 0);
     for (const std::uint32_t ended : ended_) {
       block_->modules()[ended].ended = true;
     }
@@ -47,6 +48,7 @@ class SchedulePlans : public testing::Test {
   }
   scheduler::BlockPointer block_;
   std::vector<std::uint32_t> ended_;
+  bool is_simulated_ = false;
 };
 
 TEST_F(SchedulePlans, Say_what_becomes_of_each_module) {
@@ -70,6 +72,23 @@ TEST_F(SchedulePlans, A_module_that_has_ended_is_added_again) {
   EXPECT_EQ(kinds(sut), "a kept; b added; ");
   EXPECT_THAT(sut.added, ElementsAre(1));
   EXPECT_THAT(plan(module_xml("a", "1ms") + module_xml("b", "2ms"), module_xml("a", "1ms")).ended, IsEmpty());
+}
+
+TEST_F(SchedulePlans, Processes_and_modules_in_the_background_are_added_but_not_processes_to_a_simulation) {
+  const std::string a = module_xml("a", "1ms");
+  const std::string background =
+      "<module><filename>./b.so</filename><moduletype>thread</moduletype><operationtype>non-real</operationtype>"
+      "</module>";
+  const std::string process =
+      "<module><filename>./p.exe</filename><moduletype>process</moduletype><operationtype>non-real</operationtype>"
+      "</module>";
+  for (const bool is_simulated : {false, true}) {
+    is_simulated_ = is_simulated;
+    const auto sut = plan(a, a + background + process);
+    EXPECT_EQ(kinds(sut), "a kept; b added; p added; ");
+    EXPECT_THAT(sut.added, ElementsAre(1, 2));
+    EXPECT_EQ(sut.restarts.empty(), !is_simulated);
+  }
 }
 
 TEST_F(SchedulePlans, What_is_no_schedule_needs_a_restart_and_all_of_it_is_said) {
