@@ -149,7 +149,7 @@ std::string exposed_key(const fs::path& file) {
 }
 
 Instant valid_from() {
-  return std::chrono::sys_days(std::chrono::year(2020) / 1 / 1);
+  return std::chrono::sys_days(std::chrono::year(1970) / 1 / 1);
 }
 
 Instant instant_now() {

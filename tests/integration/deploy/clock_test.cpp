@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clocks that are an hour off, of a board and of a deployer: nothing waits for them, and they are reported.
+// Clocks that are an hour off, or begin in 1970, of a board and of a deployer: nothing waits for them, and they are
+// reported.
 
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 
 #include "agents_fixture.h"
@@ -69,6 +71,38 @@ TEST_F(Clock, Of_a_board_is_an_hour_ahead) {
   kill_node(board("b"));
   start_agent("b");
   EXPECT_TRUE(wait_until([&] { return runs("b", id); }));
+}
+
+// As that of a board without a battery: its certificates must be valid then, too.
+TEST_F(Clock, Of_a_board_begins_in_1970) {
+  constexpr std::int64_t kBootSeconds = 20;
+  const std::int64_t back = static_cast<std::int64_t>(std::time(nullptr)) - kBootSeconds;
+  for (const bool with_keys : {false, true}) {
+    SCOPED_TRACE(with_keys);
+    if (with_keys) {
+      for (const char* const name : {"a", "b"}) {
+        stop_agent(name, SIGKILL);
+        kill_node(board(name));
+      }
+      bring_keys(v1_, {"a", "b"});
+      speak_with_keys(path("keys"));
+    }
+    start_agent("a");
+    {
+      const Moved moved(-back);
+      start_agent("b");
+    }
+    const Outcome done = deploy(with_keys ? v2_ : v1_);
+    ASSERT_EQ(done.code, 0) << done.err << agent("b").err();
+    const std::string id = done.json()["deployment"];
+    EXPECT_TRUE(runs("a", id) && runs("b", id));
+    EXPECT_TRUE(about(report("b")["clock_offset_ns"], -back)) << report("b");
+    EXPECT_TRUE(wait_until([&] {
+      const Json all = indurop_here({"status", "--node", board("a"), "-o", "json"}).json();
+      const Json peer = all.is_object() && all["mirror"].is_object() ? all["mirror"]["boards"][0] : Json{};
+      return peer.is_object() && peer["state"] == "alive";
+    }));
+  }
 }
 
 TEST_F(Clock, Set_back_while_an_agent_runs_makes_no_board_lose_another) {
