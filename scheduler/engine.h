@@ -82,13 +82,9 @@ class Engine {
   // Returns true if modules can run on this core without a restart.
   [[nodiscard]] bool has_core(int number) const noexcept;
   // Builds the schedule of these tasks, which refer to modules of this engine on the cores on which they run; `run` and
-  // `condition` do not count. Errors: Busy (another change is in progress), InvalidArgument (another module,
-  // another core), those of rt::Thread::start().
+  // `condition` do not count. Modules that are new in it get their FIFO priorities at once. Errors: Busy (another
+  // change is in progress), InvalidArgument (another module, another core), those of rt::Thread::start().
   Status prepare_change(std::span<const Task> tasks);
-  // FIFO priority of a module in the schedule that is Prepared; 0: without.
-  [[nodiscard]] int prepared_priority(std::uint32_t module) const noexcept {
-    return next_ == nullptr ? 0 : next_->priority_of(module);
-  }
   // Called when it is Prepared. From the first moment of `tick` on the prepared schedule counts; its releases are
   // counted from tick 0, as all are. On one core it waits for a tick in which no run of the periodic modules is in
   // progress, in steps of `step` ticks, and is Prepared again if there is none until `last`. On several cores it does

@@ -51,6 +51,11 @@ Status Engine::prepare_change(std::span<const Task> tasks) {
   if (Status started = prepared->start_threads(); !started) {
     return started;
   }
+  for (const Member& member : prepared->members()) {
+    if (member.before == nullptr) {
+      member.state->record->fifo_priority = prepared->priority_of(member.task.index);
+    }
+  }
   next_ = std::move(prepared);
   for (const auto& core : cores_) {
     core->next = &next_->on(core->number);

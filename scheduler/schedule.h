@@ -69,6 +69,7 @@ class Schedule {
   [[nodiscard]] std::span<const std::unique_ptr<Band>> bands() const noexcept { return bands_; }
   // Returns the band that runs a module. Null: none, or the scheduler does not see the end of its runs.
   [[nodiscard]] Band* find_band(std::uint32_t module) const noexcept;
+  [[nodiscard]] std::span<const Member> members() const noexcept { return members_; }
   // Returns the FIFO priority with which a module runs; 0: without.
   [[nodiscard]] int priority_of(std::uint32_t module) const noexcept;
   // Returns true if all threads wait for releases.

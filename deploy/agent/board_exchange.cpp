@@ -11,6 +11,7 @@
 
 #include "core/rt/fixed_text.h"
 #include "deploy/agent/running_node.h"
+#include "scheduler/module_version.h"
 #include "store/vars/node_lock.h"
 
 namespace indurop::deploy {
@@ -34,9 +35,8 @@ std::map<std::string, std::string> running_versions(const RunBlock& block) {
   std::map<std::string, std::string> digests;
   for (std::uint32_t i = 0; i < block.module_count; ++i) {
     const scheduler::ModuleRecord& module = block.modules()[i];
-    const std::uint64_t version = module.version.load(std::memory_order_acquire);
-    if (version > 0) {
-      digests[module.name] = rt::text_of(module.digests[version % 2]);
+    if (std::string digest = scheduler::running_digest(module); !digest.empty()) {
+      digests[module.name] = std::move(digest);
     }
   }
   return digests;

@@ -112,8 +112,8 @@ bool Arrivals::place(SchedulePlan& plan, const scheduler::RunBlockSetup& setup,
 
 // What runs in the background has no task.
 void Arrivals::offer(const One& one, const std::vector<scheduler::Task>& tasks) {
-  const auto task = std::find_if(tasks.begin(), tasks.end(),
-                                 [&one](const scheduler::Task& each) { return each.index == one.place; });
+  const auto task =
+      std::find_if(tasks.begin(), tasks.end(), [&one](const scheduler::Task& each) { return each.index == one.place; });
   if (task == tasks.end()) {
     return;
   }
@@ -233,7 +233,7 @@ bool Arrivals::enter() {
       continue;
     }
     if (one.is_process) {
-      parts_.processes.let_run(one.index, parts_.engine.prepared_priority(one.index));
+      parts_.processes.let_run(one.index);
       continue;
     }
     if (tape::Track* track = parts_.tape == nullptr ? nullptr : parts_.tape->of(one.index)) {

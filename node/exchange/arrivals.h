@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The modules that another schedule adds to a running node: they are loaded next to those that run, get a place in the
-// node, and are started; then the schedule may enter them. Processes are launched instead, and wait in irp::waitPeriod();
-// what runs in the background begins when the schedule counts. Called by the thread that supervises the node.
+// node, and are started; then the schedule may enter them. Processes are launched instead, and wait in
+// irp::waitPeriod(); what runs in the background begins when the schedule counts. Called by the thread that supervises
+// the node.
 
 #pragma once
 
@@ -16,8 +17,8 @@
 #include "node/modules/failsafe.h"
 #include "node/modules/normal_threads.h"
 #include "node/modules/processes.h"
-#include "node/run/console.h"
 #include "node/run/checked.h"
+#include "node/run/console.h"
 #include "scheduler/run_block_setup.h"
 #include "store/operate/schedule_request.h"
 #include "store/tape/tape.h"

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/base/duration.h"
-#include "core/keys/digest.h"
 #include "core/rt/clock.h"
 #include "core/rt/copy_text.h"
 #include "node/exchange/module_exchange.h"
@@ -45,6 +44,15 @@ void follow_priorities(const scheduler::RunBlock& run) {
       (void)rt::set_fifo_of(pid, record.fifo_priority);
     }
   }
+}
+
+// Indices in the run block.
+std::vector<std::uint32_t> added_by(const SchedulePlan& plan) {
+  std::vector<std::uint32_t> added;
+  for (const std::uint32_t place : plan.added) {
+    added.push_back(plan.indices[place]);
+  }
+  return added;
 }
 
 std::string summary_of(const SchedulePlan& plan) {
@@ -160,7 +168,7 @@ void ScheduleChange::checked() {
 void ScheduleChange::make_plan() {
   plan_ = plan_schedule(parts_.config, parts_.run, next_.config, next_.check);
   if (!held_.on) {
-    compare_files();
+    require_same_files(plan_, parts_.run, next_.config);
   } else if (!request_.back) {
     compare_routes();
   }
@@ -184,28 +192,6 @@ void ScheduleChange::make_plan() {
       grid_, static_cast<std::uint64_t>(setup_.macro_period_ns / basic), basic,
       in_plant ? std::optional(parts_.run.epoch_ns.load() + rt::wall_ns() - rt::now_ns()) : std::nullopt);
   delay_periods(tasks_, setup_, static_cast<std::int64_t>(next_grid_.begin) * basic);
-}
-
-// Of the file that a module runs.
-const std::string& ScheduleChange::digest_of(std::uint32_t module) const noexcept {
-  return parts_.config.modules[module].type == ModuleType::Process ? parts_.processes.program(module).digest
-                                                                   : parts_.libraries[module].digest();
-}
-
-// The code of modules stays as it is.
-void ScheduleChange::compare_files() {
-  for (std::size_t i = 0; i < plan_.indices.size(); ++i) {
-    const std::uint32_t index = plan_.indices[i];
-    const config::Module& module = next_.config.modules[i];
-    if (index == SchedulePlan::kNoModule || record(index).ended) {
-      continue;
-    }
-    const auto digest = keys::digest_of_file(module.file);
-    if (!digest || digest->digest != digest_of(index)) {
-      plan_.restarts.push_back(fmt::format("module {} runs another version than {}; `indurop reload {}` exchanges it",
-                                           module.name, module.file.string(), module.name));
-    }
-  }
 }
 
 void ScheduleChange::loaded() {
@@ -293,19 +279,12 @@ void ScheduleChange::follow() {
     step_ = Step::Leaving;
   }
   if (step_ == Step::Leaving && change == Engine::Change::None) {
-    note_leavers();
+    const std::vector<std::uint32_t> followers = added_by(plan_);
+    for (const std::uint32_t module : std::exchange(plan_.ended, {})) {
+      leavers_.push_back({module, true, followers});
+    }
     step_ = Step::Idle;
     follow_held();
-  }
-}
-
-void ScheduleChange::note_leavers() {
-  std::vector<std::uint32_t> followers;
-  for (const std::uint32_t place : plan_.added) {
-    followers.push_back(plan_.indices[place]);
-  }
-  for (const std::uint32_t module : std::exchange(plan_.ended, {})) {
-    leavers_.push_back({module, true, followers});
   }
 }
 

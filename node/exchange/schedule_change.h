@@ -39,7 +39,6 @@ class ScheduleChange {
     Placement placement;
     BoardRoutes& routes;
     BoardMirror& mirror;
-    const Processes& processes;
   };
 
   ScheduleChange(const Parts& parts, const Arrivals::Parts& arrivals)
@@ -56,7 +55,7 @@ class ScheduleChange {
   // A module that is to be stopped.
   struct Leaver {
     std::uint32_t module = 0;
-    bool has_run = false;                   // else it was started for a schedule that has not taken over
+    bool has_run = false;                  // else it was started for a schedule that has not taken over
     std::vector<std::uint32_t> followers;  // modules that the schedule has had since
   };
   // Returns each once.
@@ -112,7 +111,6 @@ class ScheduleChange {
   void check(const operate::ScheduleRequest& request);
   void checked();
   void make_plan();
-  void compare_files();
   void compare_routes();
   void loaded();
   void start(rt::MonoTime now, const std::string& others);
@@ -129,8 +127,6 @@ class ScheduleChange {
   void refuse(const std::string& why);
   void answer(scheduler::CommandResult result, const std::string& text);
   void respond(operate::ScheduleReport report, scheduler::CommandResult result, const std::string& text) const;
-  void note_leavers();
-  [[nodiscard]] const std::string& digest_of(std::uint32_t module) const noexcept;
   [[nodiscard]] scheduler::ModuleRecord& record(std::uint32_t module) const noexcept {
     return parts_.run.modules()[module];
   }
@@ -146,7 +142,7 @@ class ScheduleChange {
   scheduler::RunBlockSetup setup_;      // of `next_`
   std::vector<scheduler::Task> tasks_;  // of `next_`, by the indices of the run block
   Arrivals arrivals_;
-  bool waits_for_any_tick_ = false;         // in each macro period that began a run was in progress
+  bool waits_for_any_tick_ = false;  // in each macro period that began a run was in progress
   std::vector<Leaver> leavers_;
   std::optional<config::Config> previous_;  // of the schedule before
   MacroGrid grid_;                          // of macro periods

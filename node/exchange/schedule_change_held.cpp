@@ -5,6 +5,7 @@
 
 #include "core/keys/digest.h"
 #include "node/exchange/schedule_change.h"
+#include "scheduler/module_version.h"
 
 namespace indurop::node {
 namespace {
@@ -71,7 +72,8 @@ void ScheduleChange::compare_routes() {
     const config::Module& module = next_.config.modules[place];
     const std::uint32_t index = plan_.indices[place];
     const auto digest = keys::digest_of_file(module.file);
-    if (index != SchedulePlan::kNoModule && digest && digest->digest == digest_of(index)) {
+    if (index != SchedulePlan::kNoModule && digest &&
+        digest->digest == scheduler::running_digest(parts_.run.modules()[index])) {
       continue;  // it was there before
     }
     const auto sent = std::find_if(next.outgoing.begin(), next.outgoing.end(), [&](const mirror::Outgoing& out) {

@@ -7,6 +7,8 @@
 #include <algorithm>
 
 #include "core/base/duration.h"
+#include "core/keys/digest.h"
+#include "scheduler/module_version.h"
 
 namespace indurop::node {
 namespace {
@@ -218,6 +220,21 @@ const char* to_text(ModuleFate::Kind kind) noexcept {
 SchedulePlan plan_schedule(const Config& running, const scheduler::RunBlock& run, const Config& next,
                            const config::CheckResult& check) {
   return ScheduleComparison(running, run).run(next, check);
+}
+
+void require_same_files(SchedulePlan& plan, const scheduler::RunBlock& run, const config::Config& next) {
+  for (std::size_t i = 0; i < plan.indices.size(); ++i) {
+    const std::uint32_t index = plan.indices[i];
+    const Module& module = next.modules[i];
+    if (index == SchedulePlan::kNoModule || run.modules()[index].ended) {
+      continue;
+    }
+    const auto digest = keys::digest_of_file(module.file);
+    if (!digest || digest->digest != scheduler::running_digest(run.modules()[index])) {
+      plan.restarts.push_back(fmt::format("module {} runs another version than {}; `indurop reload {}` exchanges it",
+                                          module.name, module.file.string(), module.name));
+    }
+  }
 }
 
 }  // namespace indurop::node

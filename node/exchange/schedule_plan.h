@@ -41,4 +41,7 @@ struct SchedulePlan {
 SchedulePlan plan_schedule(const config::Config& running, const scheduler::RunBlock& run, const config::Config& next,
                            const config::CheckResult& check);
 
+// Adds to a plan a restart for each module that stays and whose file in `next` is not the one that runs.
+void require_same_files(SchedulePlan& plan, const scheduler::RunBlock& run, const config::Config& next);
+
 }  // namespace indurop::node

@@ -46,8 +46,7 @@ class ModuleCommands {
       : parts_(parts),
         exchanges_(exchanges, check, apart),
         schedule_(ScheduleChange::Parts{parts.options, parts.config, parts.run, parts.libraries, parts.engine,
-                                        exchanges.store, parts.console, parts.placement, parts.routes, parts.mirror,
-                                        parts.processes},
+                                        exchanges.store, parts.console, parts.placement, parts.routes, parts.mirror},
                   Arrivals::Parts{parts.config, parts.run, parts.libraries, parts.engine, exchanges.store,
                                   parts.failsafe, exchanges_, parts.phases, parts.processes, parts.normal_threads,
                                   parts.console, parts.tape}) {

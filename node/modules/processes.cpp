@@ -329,12 +329,11 @@ bool Processes::start_aside(std::uint32_t module) {
   return launch(child);
 }
 
-void Processes::let_run(std::uint32_t module, int fifo_priority) {
+void Processes::let_run(std::uint32_t module) {
   Child& child = *find(module);
   child.aside = false;
-  record(child).fifo_priority = fifo_priority;
-  if (fifo_priority > 0 && child.pid > 0) {
-    (void)rt::set_fifo_of(child.pid, fifo_priority);
+  if (const int priority = record(child).fifo_priority; priority > 0 && child.pid > 0) {
+    (void)rt::set_fifo_of(child.pid, priority);
   }
 }
 

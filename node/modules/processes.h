@@ -62,9 +62,9 @@ class Processes {
   // The program of a module without a process; `digest`: its SHA-256.
   void set_file(std::uint32_t module, const std::filesystem::path& file, const std::string& digest);
   // Like start(), for a process that no schedule has yet: if it dies, it is neither restarted nor an event for the
-  // plant. From let_run() on it is like the others, with this FIFO priority; 0: none.
+  // plant. From let_run() on it is like the others, with the FIFO priority of its record.
   bool start_aside(std::uint32_t module);
-  void let_run(std::uint32_t module, int fifo_priority);
+  void let_run(std::uint32_t module);
   // For an exchange of a process. The one that runs now, -1: it has died; and what it was launched from.
   [[nodiscard]] pid_t pid(std::uint32_t module) const noexcept;
   [[nodiscard]] const Program& program(std::uint32_t module) const noexcept;

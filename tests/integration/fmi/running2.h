@@ -73,7 +73,10 @@ class Running2 {
     char text[4096];
     std::va_list arguments;
     va_start(arguments, message);
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"  // it comes from the FMU
     std::vsnprintf(text, sizeof text, message, arguments);
+#pragma GCC diagnostic pop
     va_end(arguments);
     static_cast<Running2*>(environment)->log +=
         std::string(instance) + " " + std::to_string(status) + " " + category + ": " + text + "\n";

@@ -119,7 +119,8 @@ TEST_F(AddedProcesses, From_its_first_tick_on_it_is_a_process_like_the_others) {
   EXPECT_CONTAINS(sut.err(), "process module process died 1 times");
 }
 
-// Whatever moment it is, the node runs by one of the two schedules afterwards, and the process is in it or does not run.
+// Whatever moment it is, the node runs by one of the two schedules afterwards, and the process is in it or does not
+// run.
 TEST_F(AddedProcesses, One_that_is_killed_at_any_moment_leaves_one_of_the_schedules) {
   constexpr int kTimes = 25;
   start_and_wait({kCounter, kWalker});
@@ -136,7 +137,7 @@ TEST_F(AddedProcesses, One_that_is_killed_at_any_moment_leaves_one_of_the_schedu
       return run()->module_count == 3U && pid_of("process") > 0 &&
              module("process").state.load() != ModuleState::Stopped;
     }));
-    rt::sleep_until(rt::MonoClock::now() + std::chrono::microseconds(random() % 20'000));
+    rt::sleep_until(rt::MonoClock::now() + std::chrono::microseconds(random() % (1000U << (i % 9))));
     if (const pid_t pid = pid_of("process"); pid > 0) {
       (void)::kill(pid, SIGKILL);
     }
@@ -220,12 +221,10 @@ TEST_F(AddedProcesses, Fail_safe_values_of_a_module_that_ends_are_not_those_of_i
   const auto last = value<std::int32_t>("nt::output");
   EXPECT_GT(last, 100) << "it has no such value";
   // One that never runs writes none.
-  const Outcome bad = change({kCounter,
-                              {.file = "faulty.so", .name = "second", .priority = 2, .more = failsafe},
-                              {.file = "faulty.so",
-                               .name = "fourth",
-                               .priority = 3,
-                               .properties = {{"fault", "throw"}, {"at", "start"}}}});
+  const Outcome bad = change(
+      {kCounter,
+       {.file = "faulty.so", .name = "second", .priority = 2, .more = failsafe},
+       {.file = "faulty.so", .name = "fourth", .priority = 3, .properties = {{"fault", "throw"}, {"at", "start"}}}});
   EXPECT_EQ(bad.code, 1) << bad.err;
   EXPECT_TRUE(is_stopped("second"));
   EXPECT_EQ(value<std::int32_t>("nt::output"), last);
