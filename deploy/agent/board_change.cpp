@@ -22,6 +22,7 @@ void BoardChange::load(const Order& order) {
 void BoardChange::enter(const Order& order, rt::MonoTime at, bool alone) {
   log_.info("deployment {}: changing without a restart", shown_id(order.deployment));
   held_before_.clear();
+  process_.begin_trial();
   exchange_.enter(at, alone);
 }
 
@@ -34,6 +35,7 @@ void BoardChange::restart(const Order& order) {
 
 void BoardChange::commit(const Order& order) {
   keep_folder_of_node();
+  process_.end_trial();
   exchange_.decide(order.deployment);
 }
 
@@ -42,6 +44,7 @@ void BoardChange::go_back(Way way) {
   const std::string& before = state_.committed().current;
   if (way == Way::Exchange) {
     process_.go_on_as(deployment_.manifest(before), before);
+    process_.end_trial();
     exchange_.decide(before);
   } else {
     process_.want(deployment_.manifest(before), before);
@@ -53,6 +56,7 @@ void BoardChange::go_back(Way way) {
 
 void BoardChange::forget() {
   keep_folder_of_node();
+  process_.end_trial();
   exchange_.decide(state_.committed().current);
 }
 

@@ -203,9 +203,14 @@ std::optional<BoardExchange::Answer> BoardExchange::poll() {
   if (vars::running_node(board_) != run().node_pid.load()) {
     return done(stage_ == Stage::Deciding ? "" : "its node ended");  // the next one runs what it is started with
   }
-  if (!place()) {
-    return std::nullopt;
+  auto answer = place() ? answer_of_node() : std::nullopt;
+  if (!answer) {
+    state_.reserve().give_if_full();  // the node may be waiting for space for its report
   }
+  return answer;
+}
+
+std::optional<BoardExchange::Answer> BoardExchange::answer_of_node() {
   switch (stage_) {
     case Stage::Loading:
       return loaded();

@@ -68,6 +68,7 @@ class BoardExchange {
   bool open_run();
   [[nodiscard]] scheduler::RunBlock& run() const noexcept;
   bool place();
+  std::optional<Answer> answer_of_node();
   std::optional<Answer> loaded();
   std::optional<Answer> entered();
   std::optional<Answer> decided();

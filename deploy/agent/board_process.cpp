@@ -92,6 +92,12 @@ void BoardProcess::go_on_as(const std::filesystem::path& manifest, const std::st
   want(manifest, deployment);
 }
 
+void BoardProcess::end_trial() noexcept {
+  if (trial_until_ == rt::MonoTime::max()) {
+    trial_until_ = rt::MonoClock::now() + kNodeGrace;
+  }
+}
+
 std::filesystem::path BoardProcess::manifest_of_node(const std::string& board) {
   const auto file = vars::RunFile::open(board, vars::Mode::ReadOnly, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
   const auto* const block = file && vars::running_node(board) > 0 ? block_of(file.value()) : nullptr;
@@ -207,16 +213,19 @@ void BoardProcess::note_end(int status, rt::MonoTime now) {
   if (!hung_.empty()) {
     reason_ = std::exchange(hung_, {});
   }
-  if (!died) {
+  const bool was_stopped = code == kOk || code == kInterrupted;
+  if (!died && (was_stopped || now >= trial_until_)) {
     // An orderly end: it was stopped, or it refuses to run; further restarts would not help.
     condition_ = NodeCondition::Failed;
-    if (code == kOk || code == kInterrupted) {
+    if (was_stopped) {
       reason_ = "the node was stopped";
     }
     log_.error("{}; it is not started again", reason_);
     return;
   }
-  log_.info("{}", black_box_.keep());
+  if (died) {
+    log_.info("{}", black_box_.keep());
+  }
   while (!restarts_.empty() && now - restarts_.front() > kRestartWindow) {
     restarts_.pop_front();
   }

@@ -47,6 +47,10 @@ class BoardProcess {
   void want(const std::filesystem::path& manifest, const std::string& deployment);
   // As want(), of a node that was exchanged to that deployment: it goes on.
   void go_on_as(const std::filesystem::path& manifest, const std::string& deployment);
+  // While another deployment is on trial in the running node, and some seconds after end_trial(), a node that gives up
+  // does so because of that deployment, and is started again.
+  void begin_trial() noexcept { trial_until_ = rt::MonoTime::max(); }
+  void end_trial() noexcept;
   // Ends the node, and starts it again with what should run.
   void renew() noexcept { running_.clear(); }
   // Returns the manifest that the board's node was started with; empty: none runs.
@@ -108,6 +112,7 @@ class BoardProcess {
   rt::MonoTime start_at_;  // earliest time of the next start
   std::deque<rt::MonoTime> restarts_;
   std::uint32_t deaths_ = 0;  // since want()
+  rt::MonoTime trial_until_{};
   NodeCondition condition_ = NodeCondition::None;
   std::string reason_;
   std::optional<vars::RunFile> run_;

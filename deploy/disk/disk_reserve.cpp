@@ -10,7 +10,8 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr off_t kSize = 256L * 1024;  // some ten times what is written
+constexpr off_t kSize = 256L * 1024;                           // some ten times what is written
+constexpr std::uintmax_t kAnswer = std::uintmax_t{16} * 1024;  // that of a node is smaller
 constexpr mode_t kMode = 0600;
 
 }  // namespace
@@ -28,6 +29,14 @@ Result<void, base::Problem> DiskReserve::take() const {
   return base::Problem{fmt::format("{}: a deployment needs {} KiB in {}",
                                    error == ENOSPC ? "disk full" : std::strerror(error), kSize / 1024,
                                    file_.parent_path().string())};
+}
+
+void DiskReserve::give_if_full() const noexcept {
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(file_.parent_path(), error);
+  if (!error && space.available < kAnswer) {
+    give();
+  }
 }
 
 void DiskReserve::give() const noexcept {

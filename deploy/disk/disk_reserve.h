@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Space on a board's disk that only the end of a deployment uses: what the board commits, and what it says to its node,
-// is written even if something else (a recording, a log) has filled the disk since the deployment began.
+// Space on a board's disk that only the end of a deployment uses: what the board commits, what it says to its node, and
+// what the node answers is written even if something else (a recording, a log) has filled the disk since the deployment
+// began.
 
 #pragma once
 
@@ -30,6 +31,9 @@ class DiskReserve {
     }
     return written;
   }
+
+  // Gives the space back if the disk is full: another process has something to write.
+  void give_if_full() const noexcept;
 
  private:
   void give() const noexcept;

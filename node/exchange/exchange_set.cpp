@@ -17,6 +17,7 @@ using scheduler::CommandResult;
 using State = operate::SetReport::State;
 
 constexpr std::size_t kShownDigits = 12;
+constexpr std::chrono::milliseconds kWriteAgain{200};
 constexpr std::uint32_t kNoSuchModule = ~std::uint32_t{0};
 
 std::uint32_t index_of(const scheduler::RunBlock& run, const std::string& name) {
@@ -44,7 +45,16 @@ void ExchangeSet::set_state(State state) {
   report_.grid_begin = grid.begin;
   report_.schedule = schedule.held().on ? schedule.report().modules : std::vector<operate::ScheduleReport::Module>();
   report_.schedule_tick = schedule.held().counts ? context_.parts.run.schedule_tick.load() : 0;
-  (void)operate::write_set_report(context_.parts.node, report_);
+  write_report(rt::MonoClock::now());
+}
+
+void ExchangeSet::write_report(rt::MonoTime now) {
+  const Status written = operate::write_set_report(context_.parts.node, report_);
+  if (!written && !write_at_) {
+    context_.parts.console.warning("the state of the exchange cannot be written: {}; it is tried again",
+                                   describe(written.error()));
+  }
+  write_at_ = written ? std::nullopt : std::optional(now + kWriteAgain);
 }
 
 bool ExchangeSet::is_under_way() const noexcept {
@@ -74,6 +84,9 @@ void ExchangeSet::poll(rt::MonoTime now) {
     exchange->go_on(now);
   }
   go_on();
+  if (write_at_ && now >= *write_at_) {
+    write_report(now);
+  }
 }
 
 void ExchangeSet::command(const std::string& single) {

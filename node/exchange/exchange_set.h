@@ -44,6 +44,7 @@ class ExchangeSet {
   void forget();
   void run_deployment(const std::string& id);
   void set_state(operate::SetReport::State state);
+  void write_report(rt::MonoTime now);
 
   ExchangeContext& context_;
   std::map<std::uint32_t, std::unique_ptr<VersionExchange>> all_;  // by module
@@ -54,6 +55,7 @@ class ExchangeSet {
   bool compares_ = false;   // nothing is exchanged
   bool keeps_new_ = false;  // decided; while Leaving
   operate::SetReport report_;
+  std::optional<rt::MonoTime> write_at_;  // the report could not be written, as on a full disk: again at this time
 };
 
 }  // namespace indurop::node

@@ -117,6 +117,22 @@ TEST_F(Rescheduled, Processes_are_added_and_go_with_a_rollback) {
   EXPECT_TRUE(both_run(first_));
 }
 
+// Its policy is that of the deployment that was taken back.
+TEST_F(Rescheduled, A_process_whose_end_stops_the_node_in_the_trial_leaves_no_board_stopped) {
+  start_with({press_of("a"), ticks_of("a")}, {press_of("b"), ticks_of("b")});
+  std::ofstream(folder() / "broken.sh") << "#!/bin/sh\nexit 3\n";
+  ::chmod(path("broken.sh").c_str(), 0755);
+  const std::string next = plant_of({press_of("a"), ticks_of("a")}, {press_of("b"), ticks_of("b")});
+  text_.insert(text_.find("</board>"),
+               "<module><filename>./broken.sh</filename><moduletype>process</moduletype><operationtype>non-real"
+               "</operationtype><restart max=\"0\" escalate=\"stop-node\"/></module>\n");
+  std::ofstream(next) << text_;
+  const Outcome done = deploy(next, {"--health", "1s"});
+  EXPECT_EQ(done.code, 5) << done.err << agent("a").err();
+  EXPECT_TRUE(both_run(first_)) << agent("a").err();
+  EXPECT_EQ(vars::running_node(board("b")), pids_["b"]);
+}
+
 TEST_F(Rescheduled, Files_and_schedule_change_in_one_tick) {
   start_with({press_of("a"), ticks_of("a")}, {press_of("b"), ticks_of("b")});
   bring("a", "press_a_second");
