@@ -3,6 +3,7 @@
 """indurop-opcua on an address that other hosts can reach: only encrypted connections, only clients that are trusted, a
 certificate of the plant's authority. In a network namespace of its own. certificates_test.py PROGRAMS FAKE_NODE [TEST...]"""
 
+import pathlib
 import subprocess
 
 from opcua_harness import Client, enter_namespace, Failed, main, refused, wait_for
@@ -17,8 +18,16 @@ def begin(setting, *options):
     return setting.start_opcua(server, "--bind", "0.0.0.0", "--host", "127.0.0.1", "--anonymous", *options)
 
 
-def rejected_certificates(pki):
-    """Those that the server has written to their end: one that is moved before that is not recognized."""
+def is_watched(process, folder):
+    """Whether a process is notified of changes in a folder."""
+    inode = f" ino:{folder.stat().st_ino:x} "
+    return any(inode in info.read_text() for info in pathlib.Path(f"/proc/{process.pid}/fdinfo").iterdir() if info.exists())
+
+
+def rejected_certificates(setting, pki):
+    """Those that the server has written to their end, once it notices where they are moved. Before that, as long as it
+    starts, they would not be recognized."""
+    wait_for(lambda: is_watched(setting.opcua, pki / "trusted/certs"), "the server to watch the trusted certificates")
     return wait_for(lambda: [one for one in (pki / "rejected").iterdir() if one.read_text().rstrip().endswith("-----END CERTIFICATE-----")],
                     "the rejected certificate")
 
@@ -45,7 +54,7 @@ def test_clients_are_trusted_one_by_one(setting):
     words = {"user": "anna", "password": PASSWORD, "mode": "SignAndEncrypt", "policy": "Aes128_Sha256_RsaOaep"}
     refused(lambda: client.connect(**words))
     pki = setting.folder / "opcua/pki"
-    rejected = rejected_certificates(pki)
+    rejected = rejected_certificates(setting, pki)
     assert len(rejected) == 1, rejected
     rejected[0].rename(pki / "trusted/certs" / rejected[0].name)
     again = Client(setting, endpoint)
@@ -68,7 +77,7 @@ def test_a_certificate_of_the_plant(setting):
              "ca": str(keys / "ca.pem"), "revoked": str(keys / "revoked.pem")}
     refused(lambda: client.connect(**words))
     pki = setting.folder / "opcua/pki"
-    for one in rejected_certificates(pki):
+    for one in rejected_certificates(setting, pki):
         one.rename(pki / "trusted/certs" / one.name)
     connect_when_trusted(client, **words)
     assert client.read(setting.id("knu::Robot::gain"))["code"] == "Good"
