@@ -35,7 +35,7 @@ void BoardChange::restart(const Order& order) {
 
 void BoardChange::commit(const Order& order) {
   keep_folder_of_node();
-  process_.end_trial();
+  process_.end_trial(true);
   exchange_.decide(order.deployment);
 }
 
@@ -44,7 +44,7 @@ void BoardChange::go_back(Way way) {
   const std::string& before = state_.committed().current;
   if (way == Way::Exchange) {
     process_.go_on_as(deployment_.manifest(before), before);
-    process_.end_trial();
+    process_.end_trial(false);
     exchange_.decide(before);
   } else {
     process_.want(deployment_.manifest(before), before);
@@ -56,7 +56,7 @@ void BoardChange::go_back(Way way) {
 
 void BoardChange::forget() {
   keep_folder_of_node();
-  process_.end_trial();
+  process_.end_trial(false);
   exchange_.decide(state_.committed().current);
 }
 

@@ -92,9 +92,9 @@ void BoardProcess::go_on_as(const std::filesystem::path& manifest, const std::st
   want(manifest, deployment);
 }
 
-void BoardProcess::end_trial() noexcept {
+void BoardProcess::end_trial(bool is_committed) noexcept {
   if (trial_until_ == rt::MonoTime::max()) {
-    trial_until_ = rt::MonoClock::now() + kNodeGrace;
+    trial_until_ = is_committed ? rt::MonoTime() : rt::MonoClock::now() + kNodeGrace;
   }
 }
 

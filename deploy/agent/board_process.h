@@ -47,10 +47,10 @@ class BoardProcess {
   void want(const std::filesystem::path& manifest, const std::string& deployment);
   // As want(), of a node that was exchanged to that deployment: it goes on.
   void go_on_as(const std::filesystem::path& manifest, const std::string& deployment);
-  // While another deployment is on trial in the running node, and some seconds after end_trial(), a node that gives up
-  // does so because of that deployment, and is started again.
+  // While another deployment is on trial in the running node, and some seconds after it is taken back, a node that
+  // gives up does so because of that deployment, and is started again. Once it is committed, the node stays down.
   void begin_trial() noexcept { trial_until_ = rt::MonoTime::max(); }
-  void end_trial() noexcept;
+  void end_trial(bool is_committed) noexcept;
   // Ends the node, and starts it again with what should run.
   void renew() noexcept { running_.clear(); }
   // Returns the manifest that the board's node was started with; empty: none runs.

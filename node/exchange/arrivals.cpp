@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/keys/digest.h"
 #include "core/rt/clock.h"
+#include "scheduler/module_version.h"
 
 namespace indurop::node {
 namespace {
@@ -36,9 +36,7 @@ void Arrivals::begin(const Rechecked& next, const SchedulePlan& plan) {
     one.index = plan.indices[place];
     one.is_process = configured(one).type == scheduler::ModuleType::Process;
     one.is_in_background = configured(one).operation == scheduler::Operation::NonReal;
-    const auto digest = keys::digest_of_file(configured(one).file);
-    one.loads = one.index == SchedulePlan::kNoModule || one.is_process || !digest ||
-                digest->digest != parts_.libraries[one.index].digest();
+    one.loads = one.index == SchedulePlan::kNoModule || one.is_process || !runs_file(record(one), configured(one).file);
   }
   load_next();
 }
@@ -153,6 +151,7 @@ void Arrivals::replace_code(One& one) {
     (void)library.unload();
   }
   library = std::move(one.library);
+  scheduler::set_version(record(one), library.digest(), parts_.run.tick.load(), scheduler::VersionState::Settled);
 }
 
 bool Arrivals::is_started(rt::MonoTime now) {

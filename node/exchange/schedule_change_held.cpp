@@ -3,9 +3,7 @@
 // to the one before if the deployment is given up.
 #include <algorithm>
 
-#include "core/keys/digest.h"
 #include "node/exchange/schedule_change.h"
-#include "scheduler/module_version.h"
 
 namespace indurop::node {
 namespace {
@@ -71,9 +69,7 @@ void ScheduleChange::compare_routes() {
   for (const std::uint32_t place : plan_.added) {
     const config::Module& module = next_.config.modules[place];
     const std::uint32_t index = plan_.indices[place];
-    const auto digest = keys::digest_of_file(module.file);
-    if (index != SchedulePlan::kNoModule && digest &&
-        digest->digest == scheduler::running_digest(parts_.run.modules()[index])) {
+    if (index != SchedulePlan::kNoModule && runs_file(record(index), module.file)) {
       continue;  // it was there before
     }
     const auto sent = std::find_if(next.outgoing.begin(), next.outgoing.end(), [&](const mirror::Outgoing& out) {

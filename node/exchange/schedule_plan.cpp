@@ -222,6 +222,11 @@ SchedulePlan plan_schedule(const Config& running, const scheduler::RunBlock& run
   return ScheduleComparison(running, run).run(next, check);
 }
 
+bool runs_file(const scheduler::ModuleRecord& module, const std::filesystem::path& file) {
+  const auto digest = keys::digest_of_file(file);
+  return digest && digest->digest == scheduler::running_digest(module);
+}
+
 void require_same_files(SchedulePlan& plan, const scheduler::RunBlock& run, const config::Config& next) {
   for (std::size_t i = 0; i < plan.indices.size(); ++i) {
     const std::uint32_t index = plan.indices[i];
@@ -229,8 +234,7 @@ void require_same_files(SchedulePlan& plan, const scheduler::RunBlock& run, cons
     if (index == SchedulePlan::kNoModule || run.modules()[index].ended) {
       continue;
     }
-    const auto digest = keys::digest_of_file(module.file);
-    if (!digest || digest->digest != scheduler::running_digest(run.modules()[index])) {
+    if (!runs_file(run.modules()[index], module.file)) {
       plan.restarts.push_back(fmt::format("module {} runs another version than {}; `indurop reload {}` exchanges it",
                                           module.name, module.file.string(), module.name));
     }

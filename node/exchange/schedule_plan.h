@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ struct SchedulePlan {
 // checked with the result `check`.
 SchedulePlan plan_schedule(const config::Config& running, const scheduler::RunBlock& run, const config::Config& next,
                            const config::CheckResult& check);
+
+// Returns true if it is the file, by its content, that the module runs or ran last. Reads the whole file.
+bool runs_file(const scheduler::ModuleRecord& module, const std::filesystem::path& file);
 
 // Adds to a plan a restart for each module that stays and whose file in `next` is not the one that runs.
 void require_same_files(SchedulePlan& plan, const scheduler::RunBlock& run, const config::Config& next);

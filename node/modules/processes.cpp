@@ -310,23 +310,15 @@ bool Processes::has_ended(std::uint32_t module) const noexcept {
                       [module](const Child& child) { return child.index == module && child.pid > 0; });
 }
 
-bool Processes::start(std::uint32_t module) {
+bool Processes::start(std::uint32_t module, bool aside) {
   Child* child = find(module);
   if (child == nullptr) {
     return false;
   }
   child->stopping = false;
   child->restarts.clear();
-  child->aside = false;
+  child->aside = aside;
   return launch(*child);
-}
-
-bool Processes::start_aside(std::uint32_t module) {
-  Child& child = *find(module);
-  child.stopping = false;
-  child.restarts.clear();
-  child.aside = true;
-  return launch(child);
 }
 
 void Processes::let_run(std::uint32_t module) {

@@ -56,14 +56,14 @@ class Processes {
   // returns true after it. start() returns false if the process cannot be launched (reported on the console).
   void stop(std::uint32_t module, rt::MonoTime now);
   [[nodiscard]] bool has_ended(std::uint32_t module) const noexcept;
-  bool start(std::uint32_t module);
+  bool start(std::uint32_t module) { return start(module, false); }
   // For a module that another schedule adds. If it is no process, nothing happens. `module` is borrowed.
   void add(std::uint32_t index, const config::Module& module);
   // The program of a module without a process; `digest`: its SHA-256.
   void set_file(std::uint32_t module, const std::filesystem::path& file, const std::string& digest);
   // Like start(), for a process that no schedule has yet: if it dies, it is neither restarted nor an event for the
   // plant. From let_run() on it is like the others, with the FIFO priority of its record.
-  bool start_aside(std::uint32_t module);
+  bool start_aside(std::uint32_t module) { return start(module, true); }
   void let_run(std::uint32_t module);
   // For an exchange of a process. The one that runs now, -1: it has died; and what it was launched from.
   [[nodiscard]] pid_t pid(std::uint32_t module) const noexcept;
@@ -109,6 +109,7 @@ class Processes {
   // Returns true if a launched process is ready to be released.
   bool enrolled(Child& child);
   bool launch(Child& child);
+  bool start(std::uint32_t module, bool aside);
   // Notes which version its file is now. Returns false if it is not the one that was deployed.
   bool note_version(Child& child);
   void note_digest(Child& child, const std::string& digest);

@@ -95,6 +95,22 @@ TEST_F(AddedProcesses, One_that_the_node_started_with_ends_and_comes_back_with_a
   expect_no_tick_of_counter_is_lost();
 }
 
+TEST_F(AddedProcesses, A_thread_that_comes_back_with_another_file_is_another_version_too) {
+  start_and_wait({kCounter, kWalker});
+  ASSERT_TRUE(runs_reach("walker", 20));
+  ASSERT_EQ(change({kCounter}).code, 0);
+  EXPECT_TRUE(is_stopped("walker"));
+  Module other = kWalker;
+  other.file = folder() / "other.so";
+  std::filesystem::copy_file(std::filesystem::path(MODULE_DIR) / "walker.so", other.file);
+  std::ofstream(other.file, std::ios::app) << "another version";
+  ASSERT_EQ(change({kCounter, other}).code, 0);
+  EXPECT_TRUE(goes_on("walker"));
+  EXPECT_EQ(module("walker").version.load(), 2U);
+  EXPECT_EQ(change({kCounter, every(other, "4ms")}).code, 0) << "it is the file that runs";
+  EXPECT_EQ(change({kCounter, kWalker}).code, 4);
+}
+
 // The node would end at its first death, if it was one of its processes already.
 TEST_F(AddedProcesses, One_that_does_not_start_changes_nothing) {
   Program& sut = start_and_wait({kCounter, kWalker});
