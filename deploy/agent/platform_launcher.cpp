@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/agent/platform_launcher.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -14,13 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/descriptor.h"
-#include "core/base/read_file.h"
 #include "core/rt/clock.h"
-#include "core/rt/file_lock.h"
 #include "core/rt/open_files.h"
+#include "deploy/agent/agent_state.h"
 #include "deploy/agent/release_programs.h"
-#include "deploy/disk/committed_file.h"
 #include "deploy/disk/last_switch.h"
 #include "deploy/words/release_version.h"
 #include "store/vars/retain.h"
@@ -61,16 +57,11 @@ std::string become(const fs::path& program, char** arguments, std::vector<std::s
 
 class Launcher {
  public:
-  Launcher(fs::path platform, RunningRelease& self, const base::Log& log)
-      : files_(std::move(platform)), self_(self), log_(log) {}
+  Launcher(AgentState& state, RunningRelease& self, const base::Log& log)
+      : state_(state), self_(self), log_(log), last_(load_switch(state.folder())) {}
 
   void run() {
-    const auto text = base::read_file(files_.folder() / kCommittedFile);
-    if (auto committed = text ? read_committed(*text) : base::Problem{}) {
-      committed_ = std::move(*committed);
-    }
-    last_ = load_switch(files_.folder());
-    if (last_ && last_->ended.empty() && last_->order.generation > committed_.generation) {
+    if (last_ && last_->ended.empty() && last_->order.generation > state_.committed().generation) {
       if (run_trial()) {
         return;
       }
@@ -81,7 +72,7 @@ class Launcher {
  private:
   // Counts the start, on the disk. Returns false if that is not possible.
   bool note() {
-    const auto written = save_switch(files_.folder(), *last_);
+    const auto written = save_switch(state_.folder(), *last_);
     if (!written) {
       log_.error("{}", written.error().text);
     }
@@ -95,6 +86,7 @@ class Launcher {
     if (last_->starts >= kTrialStarts) {
       last_->ended = fmt::format("its agent was started {} times and did not do well", kTrialStarts);
     } else if (past > longest) {
+      last_->expired = true;
       last_->ended = fmt::format("it was not committed within {} s",
                                  std::chrono::duration_cast<std::chrono::seconds>(longest).count());
     } else {
@@ -114,13 +106,14 @@ class Launcher {
   }
 
   void run_committed() {
-    const std::string& current = committed_.current;
+    const Committed& committed = state_.committed();
+    const std::string& current = committed.current;
     if (current.empty() || current == kInstalledRelease) {
       return;
     }
-    const bool same_switch = last_ && last_->order.generation == committed_.generation;
-    if (same_switch && last_->installed != INDUROP_VERSION && is_older_release(committed_.comment, INDUROP_VERSION)) {
-      log_.info("the installed release {} is newer than the deployed one, {}", INDUROP_VERSION, committed_.comment);
+    const bool same_switch = last_ && last_->order.generation == committed.generation;
+    if (same_switch && last_->installed != INDUROP_VERSION && is_older_release(committed.comment, INDUROP_VERSION)) {
+      log_.info("the installed release {} is newer than the deployed one, {}", INDUROP_VERSION, committed.comment);
       self_.upgraded = true;
       return;
     }
@@ -137,31 +130,35 @@ class Launcher {
       problem = start(current, 0);
     }
     log_.error("release {} cannot be run: {}", shown_id(current), problem);
-    if (!committed_.previous.empty() && committed_.previous != kInstalledRelease) {
-      log_.error("nor can release {}: {}", shown_id(committed_.previous), start(committed_.previous, 0));
+    if (!committed.previous.empty() && committed.previous != kInstalledRelease) {
+      log_.error("nor can release {}: {}", shown_id(committed.previous), start(committed.previous, 0));
     }
   }
 
   // Becomes the agent of the release, which the kernel ends after `limit_s` unless the agent ends that limit (0: none).
   // Returns the reason if it does not.
   std::string start(const std::string& id, unsigned limit_s) {
-    const auto release = sound_release(files_, id);
+    auto release = sound_release(state_.files(), id);
+    if (!release) {
+      // Its copies may not have reached the disk before a loss of power.
+      const auto restored = state_.install(id);
+      release = restored ? sound_release(state_.files(), id) : restored.error();
+    }
     if (!release) {
       return release.error().text;
     }
     ::alarm(limit_s);
     const std::string problem =
         become(release->agent, self_.arguments,
-               release_environment(files_.folder(), release->libraries,
+               release_environment(state_.folder(), release->libraries,
                                    {kReleaseVariable + id, kLauncherVariable + self_.launcher.string()}));
     ::alarm(0);
     return problem;
   }
 
-  DeploymentFiles files_;
+  AgentState& state_;
   RunningRelease& self_;
   const base::Log& log_;
-  Committed committed_;
   std::optional<LastSwitch> last_;
 };
 
@@ -176,10 +173,12 @@ RunningRelease become_release(const std::string& board, char** arguments, const 
   std::error_code error;
   self.id = kInstalledRelease;
   self.launcher = fs::read_symlink("/proc/self/exe", error);
-  const base::Descriptor lock(::open((platform / "agent.lock").c_str(), O_RDWR | O_CLOEXEC));
-  // Without a folder nothing was deployed; if another agent of the board runs, this one ends soon.
-  if (lock.is_open() && rt::lock_file(lock.get(), rt::FileLock::Exclusive)) {
-    Launcher(platform, self, log).run();
+  if (!fs::exists(platform, error)) {
+    return self;  // nothing was deployed
+  }
+  auto state = AgentState::open_platform(board, [&log](const std::string& line) { log.error("{}", line); });
+  if (state) {  // if another agent of the board runs, this one ends soon
+    Launcher(*state, self, log).run();
   }
   return self;
 }

@@ -136,10 +136,12 @@ std::uint64_t PlatformUpdate::generation() const {
 }
 
 // Returns true if another board of the plant has a newer release, which this board missed. One that failed here is not
-// tried again without an order: each trial stops the plant.
+// tried without an order: each trial stops the plant. A trial that ended because the power was lost for longer
+// than it may last is no failure if others committed it; that is tried again.
 bool PlatformUpdate::lacks(const BoardReport& other) const {
   const bool member = std::find(other.members.begin(), other.members.end(), board_) != other.members.end();
-  const bool failed = last_ && last_->order.generation == other.generation && !last_->ended.empty();
+  const bool interrupted = last_ && last_->expired && !last_->joining;
+  const bool failed = last_ && last_->order.generation == other.generation && !last_->ended.empty() && !interrupted;
   return other.board != board_ && member && !failed && other.plant == plant_.plant && other.generation > generation();
 }
 

@@ -19,22 +19,26 @@ constexpr mode_t kSwitchMode = 0640;
 
 Json json_of(const LastSwitch& last) {
   const Order& order = last.order;
-  return {{"indurop_switch", kSwitchFormat},
-          {"release", order.deployment},
-          {"size", order.size},
-          {"generation", order.generation},
-          {"plant", order.plant},
-          {"boards", order.boards},
-          {"grant", order.grant},
-          {"deployer", order.deployer},
-          {"host", order.host},
-          {"health_ns", order.health_ns},
-          {"joining", last.joining},
-          {"session", last.session},
-          {"begun_ns", last.begun_ns},
-          {"starts", last.starts},
-          {"ended", last.ended},
-          {"installed", last.installed}};
+  Json out{{"indurop_switch", kSwitchFormat},
+           {"release", order.deployment},
+           {"size", order.size},
+           {"generation", order.generation},
+           {"plant", order.plant},
+           {"boards", order.boards},
+           {"grant", order.grant},
+           {"deployer", order.deployer},
+           {"host", order.host},
+           {"health_ns", order.health_ns},
+           {"joining", last.joining},
+           {"session", last.session},
+           {"begun_ns", last.begun_ns},
+           {"starts", last.starts},
+           {"ended", last.ended},
+           {"installed", last.installed}};
+  if (last.expired) {  // else left out: releases before 0.2 do not know it, and the digest counts all fields
+    out["expired"] = true;
+  }
+  return out;
 }
 
 }  // namespace
@@ -51,6 +55,7 @@ std::optional<LastSwitch> read_switch(std::string_view text) {
   Order& order = out.order;
   std::uint64_t format = 0;
   std::string digest;
+  out.expired = whole.find("expired") != nullptr;
   if (!read(whole, "indurop_switch", format) || format != kSwitchFormat || !read(whole, "release", order.deployment) ||
       !read(whole, "size", order.size) || !read(whole, "generation", order.generation) ||
       !read(whole, "plant", order.plant) || !read(whole, "boards", order.boards) ||

@@ -27,6 +27,7 @@ struct LastSwitch {
   std::uint64_t starts = 0;   // how often its agent was started before it was committed
   std::string ended;          // why the board went back; empty: it did not
   std::string installed;      // version of the installed release at that time
+  bool expired = false;       // `ended` because the trial lasted too long: its agent hung, or there was no power
 };
 
 std::string switch_text(const LastSwitch& last);

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "deploy/disk/last_switch.h"
 #include "held_check.h"
 #include "platform_fixture.h"
 
@@ -138,6 +139,20 @@ TEST_F(PlatformPhases, A_desk_killed_at_the_commit) {
   (void)desk.finish();
   start_agent("b");
   EXPECT_EQ(common_release(), "9.1");
+}
+
+// Board b lost its power just before its commit, for longer than a trial may last.
+TEST_F(PlatformPhases, A_long_loss_of_power_at_the_commit) {
+  ASSERT_EQ(update(packed("9.1")).code, 0);
+  stop_agent("b", SIGKILL);
+  kill_node(board("b"));
+  std::filesystem::remove(platform_folder("b") / "committed.json");
+  auto last = deploy::load_switch(platform_folder("b"));
+  ASSERT_TRUE(last.has_value());
+  last->begun_ns -= std::chrono::nanoseconds(std::chrono::hours(1)).count();
+  ASSERT_TRUE(deploy::save_switch(platform_folder("b"), *last).ok());
+  start_agent("b");
+  EXPECT_TRUE(both_run("9.1")) << agent("b").err();
 }
 
 // Whatever is killed, at whatever moment.

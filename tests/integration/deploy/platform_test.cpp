@@ -170,6 +170,30 @@ TEST_F(Platform, A_full_disk_is_reported_and_changes_nothing) {
   ::umount2(path("small").c_str(), MNT_DETACH);
 }
 
+// A loss of power may leave copies empty that had not reached the disk; files/ has what was synced.
+TEST_F(Platform, A_release_whose_copies_are_damaged_is_restored) {
+  ASSERT_EQ(update(packed("9.1")).code, 0);
+  const auto damage = [&] {
+    stop_agent("a", SIGTERM);
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(platform_folder("a") / "deployments")) {
+      if (entry.is_regular_file()) {
+        std::filesystem::resize_file(entry, 0);
+      }
+    }
+  };
+  damage();
+  start_agent("a");
+  EXPECT_TRUE(both_run("9.1")) << agent("a").err();
+  EXPECT_THAT(agent("a").err(), HasSubstr("it is restored from files/"));
+  damage();
+  for (const auto& entry : std::filesystem::directory_iterator(platform_folder("a") / "files")) {
+    std::filesystem::resize_file(entry, std::filesystem::file_size(entry) / 2);
+  }
+  start_agent("a");
+  EXPECT_TRUE(wait_until([&] { return platform()[board("a")].value("message", "") != ""; })) << agent("a").err();
+  EXPECT_THAT(agent("a").err(), HasSubstr("cannot be run"));
+}
+
 // Without a service manager: this test starts the agent again, as often as it ends.
 TEST_F(Platform, A_release_whose_agent_ends_is_left_after_three_starts) {
   ::setenv("IRP_TEST_BAD_AGENT", path("starts").c_str(), 1);

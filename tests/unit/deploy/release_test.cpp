@@ -157,11 +157,16 @@ LastSwitch some_switch() {
 }
 
 TEST(LastSwitch, Comes_back_as_it_was) {
-  const auto sut = read_switch(switch_text(some_switch()));
-  ASSERT_TRUE(sut);
-  EXPECT_EQ(switch_text(*sut), switch_text(some_switch()));
-  EXPECT_EQ(sut->session, 5U);
-  EXPECT_THAT(sut->order.boards, ElementsAre("a", "b"));
+  for (const bool expired : {false, true}) {
+    LastSwitch last = some_switch();
+    last.expired = expired;
+    const auto sut = read_switch(switch_text(last));
+    ASSERT_TRUE(sut);
+    EXPECT_EQ(switch_text(*sut), switch_text(last));
+    EXPECT_EQ(sut->session, 5U);
+    EXPECT_THAT(sut->order.boards, ElementsAre("a", "b"));
+    EXPECT_EQ(sut->expired, expired);
+  }
 }
 
 TEST(LastSwitch, Is_read_whole_or_not_at_all) {
