@@ -48,8 +48,8 @@ rt-proof: with-tests ## nothing lost, and the maximum: schedules for T seconds o
 	@tests/proof/guest.py fetch
 	@INDUROP_PROOF_SECONDS=$(T) $(CTEST) -V -L proof_long
 
-target-proof: CUTS = 10
-target-proof: with-tests ## the packages in a Debian with systemd, and CUTS losses of power (CUTS=1000 at night), in QEMU; as root
+target-proof: CUTS = 100
+target-proof: with-tests ## the packages in a Debian with systemd in QEMU, and CUTS losses of power (CUTS=1000 at night); as root
 	@.ci/install-deps proof
 	@tests/proof/guest.py fetch
 	@INDUROP_CUTS=$(CUTS) $(CTEST) -V -j 1 -L target

@@ -19,11 +19,11 @@ import unittest
 SKIPPED = 77
 PATIENCE = 1800  # seconds; translated machines on a busy host are a hundred times slower than this one
 UNIT = "indurop-agent@board1.service"
-PLANT = """<plant name="cell"><board name="board1"><module><name>main</name><filename>./target_counting.so</filename>
+PLANT = """<plant name="cell"><board name="board1"><module><name>main</name><filename>./target_b1.so</filename>
 <moduletype>thread</moduletype><operationtype>periodic</operationtype><period>20ms</period><budget>60s</budget><priority>1</priority>
 </module></board></plant>
 """
-RUNS = "indurop get --node board1 kept::last -o csv | sed -n 's/^kept::last,\\([0-9]*\\),.*/\\1/p'"
+RUNS = "indurop get --node board1 b1::last -o csv | sed -n 's/^b1::last,\\([0-9]*\\),.*/\\1/p'"
 CAP_IPC_LOCK, CAP_SYS_NICE = 14, 23
 options = None
 

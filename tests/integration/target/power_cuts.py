@@ -1,305 +1,312 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Losses of power: a board in QEMU counts in retained variables, is deployed to as fast as it goes, and records; its power is cut
-at instants of all kinds, and its disk loses what was not flushed. After each cut it has to come back on its own: with the
-deployment that was committed or the one that was under way, with retained values that are whole and not older than what was
-to be saved, and with recordings that can be read. INDUROP_CUTS is their number (Ctrl-C ends them earlier), INDUROP_SEED where
-the dice begin."""
+"""Losses of power: the boards of a plant count in retained variables, are deployed to as fast as they take it, plants and
+releases of the platform, and record. Their data is on an ext4 file system on a disk that logs what it is given. Each of many
+instants of that log is a loss of power: the disk has what was flushed, and of the rest any sectors. From each the boards have to
+come back without help: all with the deployment that was committed, or all with the one that was under way, with retained values
+that are whole and not older than promised, and with recordings that can be read. The disk of the last cut of a life is that of
+the next one. As root, for namespaces and loop devices. INDUROP_CUTS is the number of cuts, INDUROP_SEED where the dice begin."""
 
 import argparse
 import collections
+import concurrent.futures
+import itertools
+import json
 import os
 import pathlib
-import queue
 import random
 import re
-import socket
+import shutil
 import subprocess
 import sys
 import tempfile
 import threading
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "proof"))
-import guest  # noqa: E402  pylint: disable=wrong-import-position
+from logged_disk import LoggedDisk, Past
 
-from cached_disk import CachedDisk  # noqa: E402  pylint: disable=wrong-import-position
-
+HERE = pathlib.Path(__file__).resolve().parent
 SKIPPED = 77
-HOST_IS_BUSY = 1200  # seconds until something has to happen in a translated machine
-DISK = 192 << 20
-MOST_UNSEEN = 6000  # runs before a value is called garbage
-SAVED_AFTER = 125  # runs, 2.5 s: values are saved each second
-READY = "the drivers are loaded"
-INIT = """#!/bin/busybox sh
-/bin/busybox --install -s /bin
-mount -t proc proc /proc
-mount -t sysfs sysfs /sys
-mount -t devtmpfs dev /dev
-mkdir -p /dev/shm /tmp
-mount -t tmpfs tmp /dev/shm && chmod 1777 /dev/shm
-mount -t tmpfs tmp /tmp
-ip link set lo up
-ip route add 224.0.0.0/4 dev lo
-export PATH=/bin
-cd /drivers
-for driver in %s; do insmod $driver.ko; done
-stty -echo
-echo "%s"
-read go
-insmod virtio_blk.ko
-while [ ! -e /dev/vda ]; do sleep 0.1; done
-exec sh /test/test.sh 2>&1
-"""
-PLANT = """<plant name="cuts"><board name="b"><module><name>main</name><filename>./target_counting.so</filename>
+CUTS_OF_A_LIFE = 40
+BACK_WITHIN = 120  # seconds; the host may be busy
+DISK = 384 << 20
+BLOCK = 64 << 10
+OLDEST = 3  # seconds: retained values are saved each second
+UNSEEN = 100  # runs of which nothing was heard yet
+BOARD = """<board name="{name}"><module><name>main</name><filename>{modules}/target_{name}.so</filename>
 <moduletype>thread</moduletype><operationtype>periodic</operationtype><period>20ms</period><budget>60s</budget><priority>1</priority>
-<property><value name="data">data.bin</value></property></module></board></plant>
+<property><value name="data">data.bin</value></property></module></board>
 """
-# When power is cut: so many seconds, at most, after the agent has said this; "" is its first line after the boot.
-INSTANTS = (("", 3.0), ("running 1 modules", 4.0), ("fetching", 1.5), ("switching", 2.0), ("committed", 0.5))
+RESTORED = re.compile(r"restored ([\d ]+)$")
+STEP = re.compile(r"(deployment|release) (?:\S+ \()?([0-9a-f]{12})\)?(?: of \S+)?: (\w+)")
 
 
 class Machine:
-    """The guest. Its kernel boots once; each life begins with a copy of its memory from before it has seen the disk."""
+    """The programs of one life (plant_life.py), in namespaces that end with them. `lines`: when they were heard, and what they say."""
 
-    def __init__(self, root, folder, disk_socket):
-        self.folder = folder
-        self.command = [
-            "qemu-system-x86_64", "-M", "q35,accel=tcg", "-cpu", "max", "-smp", "1", "-m", "512", "-display", "none", "-nic", "none",
-            "-no-reboot", "-rtc", "base=2026-01-01,clock=vm", "-icount", "shift=2,sleep=off",
-            "-drive", f"if=virtio,format=raw,cache=writeback,file=nbd+unix:///?socket={disk_socket}",
-            "-kernel", str(guest.kernel()), "-initrd", str(root),
-            "-append", "console=ttyS0 quiet panic=-1 mitigations=off nokaslr no_timer_check LD_LIBRARY_PATH=/lib"]
-        self.process = None
-        self.lines = queue.Queue()
-        self.memory = folder / "memory"
-        self._start(["-monitor", f"unix:{folder}/monitor,server=on,wait=off"])
-        self.wait_for(READY)
-        self._save_memory()
-
-    def _start(self, words):
+    def __init__(self, options, disk, work, *words):
+        work.mkdir()
+        boards = "".join(BOARD.format(name=f"b{number + 1}", modules=options.modules) for number in range(options.boards))
+        (work / "plant.xml").write_text(f'<plant name="cuts">{boards}</plant>')
+        environment = {**os.environ, "PATH": f"{options.release}/bin:{os.environ['PATH']}", "HOME": str(work)}
         # pylint: disable-next=consider-using-with
-        self.process = subprocess.Popen([*self.command, "-serial", "stdio", *words], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                        stderr=subprocess.STDOUT)
-        self.lines = queue.Queue()
-        threading.Thread(target=self._read, args=(self.process.stdout, self.lines), daemon=True).start()
+        self.process = subprocess.Popen(
+            ["unshare", "--mount", "--net", "--ipc", "--pid", "--mount-proc", "--fork", "--kill-child", "python3",
+             HERE / "plant_life.py", disk, work, "--boards", str(options.boards), *words],
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
+        self.lines = []
+        self.reader = threading.Thread(target=self._read, daemon=True)
+        self.reader.start()
 
-    @staticmethod
-    def _read(output, lines):
-        for line in output:
-            lines.put(line.decode(errors="replace").strip())
-        lines.put(None)
+    def _read(self):
+        for line in self.process.stdout:
+            words = json.loads(line) if line.startswith("[") else ["wrong", line.strip()]
+            self.lines.append((time.monotonic(), words))
 
-    def _save_memory(self):
-        with socket.socket(socket.AF_UNIX) as monitor:
-            monitor.connect(f"{self.folder}/monitor")
-            monitor.sendall(f'migrate "exec:cat >{self.memory}"\n'.encode())
-            text = ""
-            while "completed" not in text:
-                time.sleep(0.2)
-                monitor.sendall(b"info migrate\n")
-                text += monitor.recv(65536).decode(errors="replace")
-        self.cut()
+    def has_said(self, *kinds):
+        return any(words[0] in kinds for _, words in self.lines)
 
-    def begin(self):
-        self._start(["-monitor", "none", "-incoming", f"exec:cat {self.memory}"])
-        time.sleep(0.5)  # a key that is typed before the memory is there would be lost; begin() is repeated by line() then
-        self.process.stdin.write(b"go\n")
-        self.process.stdin.flush()
-
-    def line(self, seconds):
-        """The next line; None if there is none for so long. The end of the guest is an error."""
-        try:
-            line = self.lines.get(timeout=max(seconds, 0))
-        except queue.Empty:
-            return None
-        if line is None:
-            raise RuntimeError("the guest has ended on its own")
-        return line
-
-    def wait_for(self, text):
-        end = time.monotonic() + HOST_IS_BUSY
-        while True:
-            line = self.line(end - time.monotonic())
-            if line is None:
-                raise RuntimeError(f"the guest did not say: {text}")
-            if text in line:
-                return
-
-    def cut(self):
+    def end(self):
         self.process.kill()
         self.process.wait()
-        self.process.stdin.close()
+        self.reader.join()
+
+
+class Knowledge:
+    """What is known of the plant at an instant."""
+
+    def __init__(self):
+        self.committed = {"deployment": None, "release": "installed"}
+        self.under_way = {"deployment": None, "release": None}
+        self.saved = collections.Counter()  # board -> runs that must be there after a cut
+        self.newest = collections.Counter()  # board -> runs that were seen
+        self.recordings = set()  # that must be readable after a cut
+
+    def after(self, lines, instant):
+        """What is known when these lines were heard up to `instant`."""
+        known = Knowledge()
+        known.committed, known.under_way = dict(self.committed), dict(self.under_way)
+        known.saved, known.newest = self.saved.copy(), self.newest.copy()
+        for heard, words in lines:
+            if heard <= instant:
+                known._hear(words, heard <= instant - OLDEST)
+        return known
+
+    def _hear(self, words, is_old):
+        if words[0] == "records":
+            self.recordings.add(words[1])
+        elif words[0] in ("boards", "releases"):
+            kind = "deployment" if words[0] == "boards" else "release"
+            self.committed[kind], self.under_way[kind] = next(iter(words[1].values())), None
+        elif words[0] == "agent":
+            step = STEP.search(words[2])
+            run = re.search(r"run (\d+)$", words[2])
+            if step:
+                self._step(*step.groups())
+            if run:
+                self.newest[words[1]] = int(run.group(1))
+                if is_old:
+                    self.saved[words[1]] = max(self.saved[words[1]], int(run.group(1)))
+
+    def _step(self, kind, number, step):
+        if step == "fetching":
+            self.under_way[kind] = number
+        elif step == "committed":
+            self.committed[kind], self.under_way[kind] = number, None
+        elif step in ("rolling", "abandoned") and number == self.under_way[kind]:
+            self.under_way[kind] = None
 
 
 class Judge:
-    """What was seen of the board over all its lives."""
+    """Compares what is there after a cut with what was known before it."""
 
-    def __init__(self, talks):
-        self.committed = ""  # the deployment, by the first 12 digits of its id
-        self.under_way = ""
-        self.newest = 0  # runs that were seen
-        self.saved = 0  # runs that must be there after the cut
-        self.begun = set()  # recordings that must be readable after the cut
+    def __init__(self):
         self.count = collections.Counter()
         self.findings = []
-        self.was = ""
-        self.talks = talks
 
-    def wrong(self, text):
-        self.findings.append(f"after {self.was}: {text}")
-        print(f"    WRONG {text}", flush=True)
+    def compare(self, cut, known, lines, is_back):
+        found = [words for _, words in lines]
+        wrong = [words[1] for words in found if words[0] == "wrong"]
+        if not is_back:
+            said = [words[1:] for words in found if words[0] != "recording" and "run " not in str(words[-1])]
+            wrong.append("the plant did not come back:" + "".join(f"\n      {words}" for words in said))
+        readable = {words[1] for words in found if words[0] == "recording" and words[2]}
+        self.count["recordings read"] += len(readable)
+        for name in known.recordings - readable:
+            said = [words[3] for words in found if words[0] == "recording" and words[1] == name]
+            wrong.append(f"recording {name} cannot be read: {said or 'it is not there'}")
+        first = set()  # boards that have started their node once; a trial that goes back starts it again
+        for words in found:
+            restored = RESTORED.search(words[2]) if words[0] == "agent" else None
+            if restored and words[1] not in first:
+                first.add(words[1])
+                wrong += self._restored(known, words[1], [int(number) for number in restored.group(1).split()])
+            elif words[0] == "boards":
+                wrong += self._resumed(known, "deployment", words[1])
+            elif words[0] == "releases":
+                wrong += self._resumed(known, "release", words[1])
+            elif words[0] == "empty" and known.committed["deployment"]:
+                wrong.append(f"nothing is deployed, {known.committed['deployment']} was committed")
+        self.findings += [f"{cut}: {text}" for text in wrong]
+        return wrong
 
-    def hear(self, line):
-        if self.talks:
-            print(f"      {line}", flush=True)
-        kind, _, text = line.partition(" ")
-        found = re.search(r"deployment ([0-9a-f]{12})(?: of \S+)?: (\w+)", text)
-        if kind == "F":
-            self.wrong(text)
-        elif kind in ("B", "I", "E"):
-            self.recording(kind, text)
-        elif kind == "R":
-            self.values(text)
-        elif kind == "D":
-            self.resumed(text.strip()[:12])
-        elif kind == "L":
-            self.count["most deployments kept"] = max(self.count["most deployments kept"], int(text.split()[0]))
-        elif kind == "N" and self.committed:
-            self.wrong(f"nothing is deployed, {self.committed} was committed")
-        elif kind == "A" and text.startswith("run "):
-            self.newest = max(self.newest, int(text.split()[1]))
-        elif kind == "A" and found:
-            self.deployment(*found.groups())
+    def _restored(self, known, board, numbers):
+        runs, last = numbers[0], numbers[-1]
+        wrong = []
+        if len(set(numbers[:-1])) != 1 or last != runs:
+            wrong.append(f"retained values of {board} are torn: {numbers}")
+        if runs < known.saved[board]:
+            wrong.append(f"retained values of {board} went back to {runs}, {known.saved[board]} was saved")
+        if runs > known.newest[board] + UNSEEN:
+            wrong.append(f"retained values of {board} are {runs}, the newest seen was {known.newest[board]}")
+        self.count["retained values restored"] += 1
+        return wrong
 
-    def deployment(self, number, step):
-        if step == "fetching":
-            self.under_way = number
-        elif step == "committed":
-            self.committed, self.under_way = number, ""
-            self.count["commits"] += 1
-        elif step in ("rolling", "abandoned"):
-            self.under_way = ""
-
-    def resumed(self, number):
-        if number not in (self.committed, self.under_way):
-            self.wrong(f"{number} runs, committed was {self.committed or 'none'}, under way {self.under_way or 'none'}")
-        self.count["new" if number == self.under_way else "old"] += 1
-        self.committed, self.under_way = number, ""
-
-    def recording(self, kind, text):
-        """One that has just begun may be lost; "I" alone ends the list."""
-        if kind == "B":
-            self.begun.add(text)
-        elif kind == "I" and text:
-            self.count["recordings read"] += 1
-            self.begun.discard(text)
-        elif kind == "E" and text.split()[0] not in self.begun:
-            self.count["recordings lost in their first seconds"] += 1
-        elif kind == "I":
-            for name in self.begun:
-                self.wrong(f"recording {name} cannot be read")
-            self.begun.clear()
-
-    def values(self, text):
-        runs = [int(number) for number in text.split()]
-        if len(runs) != 33 or len(set(runs[:-1])) != 1 or not runs[0] - 1 <= runs[-1] <= runs[0]:
-            self.wrong(f"retained values are torn: {text}")
-        if runs[0] < self.saved:
-            self.wrong(f"retained values went back to {runs[0]}, {self.saved} was saved")
-        if runs[0] > self.newest + MOST_UNSEEN:
-            self.wrong(f"retained values are {runs[0]}, the newest seen was {self.newest}")
-        self.newest = max(self.saved, runs[0])
-
-    def cut(self, was):
-        self.was = was
-        self.saved = max(self.saved, self.newest - SAVED_AFTER)
+    def _resumed(self, known, kind, of_boards):
+        number = next(iter(of_boards.values()))
+        may = [known.committed[kind], known.under_way[kind]]
+        self.count[f"{kind}: {'committed' if number == may[0] else 'under way'}"] += 1
+        return [] if number in may else [f"{kind} {number} runs, {may[0]} was committed, {may[1]} was under way"]
 
 
-def live(machine, judge, instant, delay):
-    """One life, to its cut. It has to come back before that, unless the cut is in the boot."""
-    machine.begin()
-    came_back = not judge.committed
-    end = time.monotonic() + HOST_IS_BUSY
-    cut_at = None
-    while True:
-        now = time.monotonic()
-        if cut_at is not None and now >= cut_at:
-            return
-        if now >= end:
-            judge.wrong(f"nothing more happens: {'it came back' if came_back else 'it did not come back'}")
-            return
-        line = machine.line(min(cut_at or end, end) - now)
-        if line is None:
-            continue
-        judge.hear(line)
-        came_back = came_back or line.startswith("D ")
-        of_agent = line.startswith("A ")
-        if cut_at is None and of_agent and (instant == "" or (came_back and instant in line)):
-            cut_at = time.monotonic() + delay
+def write_sparse(file, content):
+    with file.open("wb") as out:
+        out.truncate(len(content))
+        for offset in range(0, len(content), BLOCK):
+            block = content[offset:offset + BLOCK]
+            if any(block):
+                out.seek(offset)
+                out.write(block)
 
 
-def prove(folder, bin_folder, module, cuts, seed):
-    dice = random.Random(seed)
-    with guest.Guest([bin_folder / name for name in ("indurop", "indurop-agent", "indurop-node")],
-                     INIT % (" ".join(guest.DRIVERS[:-1]), READY)) as made:
-        made.add(module)
-        made.add_drivers()
-        (made.root / "test" / "plant.xml").write_text(PLANT)
-        root = made.pack(pathlib.Path(__file__).with_name("board_life.sh").read_text())
-        image = folder / "disk"
-        subprocess.run(["mke2fs", "-q", "-F", "-t", "ext4", image, f"{DISK // 1024}"], check=True)
-        disk = CachedDisk(str(folder / "disk.socket"), image.read_bytes())
-        machine = Machine(root, folder, folder / "disk.socket")
-        disk.cut(dice)
-        judge = Judge("INDUROP_CUTS_TALK" in os.environ)
-        began = time.monotonic()
-        done = 0
+class Story:
+    """Lives of one plant, each from the disk that a cut has left of the one before."""
+
+    def __init__(self, options, folder):
+        self.options = options
+        self.folder = folder
+        self.dice = random.Random(options.seed)
+        self.judge = Judge()
+        self.known = Knowledge()
+        self.image = self._empty_disk()
+        self.cuts = 0
+
+    def _empty_disk(self):
+        file = self.folder / "empty"
+        with file.open("wb") as disk:
+            disk.truncate(DISK)
+        subprocess.run(["mke2fs", "-q", "-F", "-t", "ext4", file], check=True)
+        image = file.read_bytes()
+        file.unlink()
+        return image
+
+    def live(self, number):
+        """Returns the log of the disk, and what was heard, until the power is lost."""
+        folder = self.folder / f"life{number}"
+        (folder / "fuse").mkdir(parents=True)
+        disk = LoggedDisk(str(folder / "socket"), self.image)
+        with subprocess.Popen(["nbdfuse", folder / "fuse", f"nbd+unix:///?socket={folder}/socket"],
+                              stderr=subprocess.DEVNULL) as fuse:
+            while not (folder / "fuse/nbd").exists():
+                time.sleep(0.05)
+            machine = Machine(self.options, folder / "fuse/nbd", folder / "work", "--live", "--release", str(self.options.release),
+                              "--first", str(number * 1000))
+            end = time.monotonic() + BACK_WITHIN
+            while not machine.has_said("releases", "empty") and machine.process.poll() is None and time.monotonic() < end:
+                time.sleep(0.1)
+            time.sleep(self.options.seconds)
+            log = list(disk.log)
+            machine.end()
+            while subprocess.run(["losetup", "-j", folder / "fuse/nbd"], capture_output=True, check=False).stdout:
+                time.sleep(0.1)
+            fuse.terminate()  # which unmounts it
+        disk.close()
+        shutil.rmtree(folder)
+        for words in (words for _, words in machine.lines if words[0] == "wrong"):
+            self.judge.findings.append(f"life {number}: {words[1]}")
+        refused = collections.Counter(words[1] for _, words in machine.lines if words[0] == "desk")
+        for text, times in refused.items():
+            print(f"    {times} times, the desk said: {text}")
+        return log, machine.lines
+
+    def cut(self, log, lines, cuts):
+        """Loses the power at so many instants of a life, and checks what is left."""
+        past = Past(self.image, log)
+        with concurrent.futures.ThreadPoolExecutor(self.options.jobs) as pool:
+            waiting = []
+            for place in sorted(self.dice.randrange(len(log)) for _ in range(cuts)):
+                past.go_to(place)
+                left, cached, kept = past.cut(self.dice)
+                known = self.known.after(lines, log[place][0])
+                self.cuts += 1
+                self.judge.count["sectors lost"] += cached - kept
+                name = f"cut {self.cuts}, {kept} of {cached} sectors kept"
+                write_sparse(self.folder / f"{self.cuts}.disk", left)
+                waiting.append(pool.submit(self._look, self.cuts, name, known))
+            for one in waiting:
+                one.result()
+        self.image, self.known = left, known
+
+    def _look(self, number, name, known):
+        file = self.folder / f"{number}.disk"
+        kept = self.folder / f"{number}.kept"
+        subprocess.run(["cp", "--sparse=always", file, kept], check=True)
+        work = self.folder / f"work{number}"
+        machine = Machine(self.options, file, work)
         try:
-            for number in range(cuts):
-                instant, most = dice.choice(INSTANTS if judge.committed else INSTANTS[2:])
-                delay = dice.uniform(0, most)
-                live(machine, judge, instant, delay)
-                machine.cut()
-                cached, kept = disk.cut(dice)
-                was = f"cut {number + 1}, {delay:.2f} s after '{instant or 'the start of the agent'}', {kept} of {cached} sectors kept"
-                judge.cut(was)
-                done = number + 1
-                judge.count["sectors lost"] += cached - kept
-                print(f"{was}; {(time.monotonic() - began) / (number + 1):.0f} s per cut", flush=True)
-                if judge.findings and os.environ.get("INDUROP_CUTS_KEEP"):
-                    pathlib.Path(os.environ["INDUROP_CUTS_KEEP"]).write_bytes(disk.safe)
-                    break
-            # After the last one it has to come back as well.
-            live(machine, judge, "running 1 modules", 0)
-            machine.cut()
-            disk.cut(dice)
-        except KeyboardInterrupt:
-            print("interrupted")
-        finally:
-            machine.cut()
-        image.write_bytes(disk.safe)
-        judged = subprocess.run(["e2fsck", "-fy", image], capture_output=True, text=True, check=False)
-        if judged.returncode not in (0, 1):
-            judge.wrong(f"e2fsck: {judged.stdout[-300:]}")
-    print(f"{done} cuts from seed {seed}: {dict(judge.count)}, {disk.flushes} flushes")
-    print("\n".join(judge.findings) or "nothing wrong")
-    return not judge.findings
+            is_back = machine.process.wait(BACK_WITHIN) == 0
+        except subprocess.TimeoutExpired:
+            is_back = False
+        machine.end()
+        wrong = self.judge.compare(name, known, machine.lines, is_back)
+        judged = subprocess.run(["e2fsck", "-fn", file], capture_output=True, text=True, check=False)
+        if judged.returncode != 0:
+            self.judge.findings.append(f"{name}: e2fsck: {judged.stdout[-300:]} {judged.stderr[-300:]}")
+        for text in wrong:
+            print(f"    WRONG {name}: {text}", flush=True)
+        if wrong and self.options.keep:
+            shutil.copy(kept, self.options.keep / f"{number}.disk")
+        file.unlink()
+        kept.unlink()
+        shutil.rmtree(work)
+
+
+def prove(options, folder):
+    story = Story(options, folder)
+    began = time.monotonic()
+    for number in itertools.count():
+        log, lines = story.live(number)
+        story.cut(log, lines, min(CUTS_OF_A_LIFE, options.cuts - story.cuts))
+        commits = {STEP.search(words[2]).groups()[1] for _, words in lines if words[0] == "agent" and ": committed" in words[2]}
+        story.judge.count["commits"] += len(commits)
+        if not commits:
+            story.judge.findings.append(f"life {number}: nothing was committed")
+        print(f"life {number}: {len(log)} writes and flushes, {len(commits)} commits; {story.cuts} cuts, "
+              f"{(time.monotonic() - began) / story.cuts:.1f} s each", flush=True)
+        if story.cuts >= options.cuts:
+            break
+    print(f"{story.cuts} cuts of {options.boards} boards from seed {options.seed}: {dict(story.judge.count)}")
+    print("\n".join(story.judge.findings) or "nothing wrong")
+    return not story.judge.findings
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--bin", type=pathlib.Path, required=True)
-    parser.add_argument("--module", type=pathlib.Path, required=True)
-    parser.add_argument("--cuts", type=int, default=int(os.environ.get("INDUROP_CUTS", "10")))
+    parser.add_argument("--release", type=pathlib.Path, required=True, help="folder of the programs, which are also deployed")
+    parser.add_argument("--modules", type=pathlib.Path, required=True)
+    parser.add_argument("--boards", type=int, default=2)
+    parser.add_argument("--cuts", type=int, default=int(os.environ.get("INDUROP_CUTS", "20")))
+    parser.add_argument("--seconds", type=float, default=40, help="of a life, after its boards are back")
     parser.add_argument("--seed", type=int, default=int(os.environ.get("INDUROP_SEED", "1")))
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--keep", type=pathlib.Path, help="a folder for disks after which something was wrong")
     options = parser.parse_args()
-    why = guest.missing()
-    if why:
-        print(f"skipped: {why}")
+    lacking = [tool for tool in ("nbdfuse", "mke2fs", "losetup", "unshare") if not shutil.which(tool)]
+    if lacking or os.geteuid() != 0:
+        print(f"skipped: {', '.join(lacking)} not found; make target-proof installs what is missing" if lacking else "skipped: needs root")
         sys.exit(SKIPPED)
     with tempfile.TemporaryDirectory(prefix="indurop-cuts-") as folder:
-        sys.exit(0 if prove(pathlib.Path(folder), options.bin, options.module, options.cuts, options.seed) else 1)
+        sys.exit(0 if prove(options, pathlib.Path(folder)) else 1)
 
 
 if __name__ == "__main__":
