@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The desk of the operator: starts the job whose number is set in BENCH::job, and switches the drives on before, or
-// resets the robot after an error.
+// The desk of the operator: starts the job whose number is set in BENCH::job. Before that it switches the drives on,
+// or resets the robot after an error.
 #include <indurop/indurop.h>
 
 #include <indurop/generated.h>
@@ -10,7 +10,7 @@ using namespace PLC_ROBOT;
 namespace {
 
 std::uint32_t asked = 0;
-bool started = false;
+std::uint16_t started = 0;
 
 void ask(OPCODE_ROBOT_SERVICE code, std::uint16_t job) {
   asked = ROBOT_MODULE_STATE.nAcknowledge + 1;
@@ -25,9 +25,9 @@ void ask(OPCODE_ROBOT_SERVICE code, std::uint16_t job) {
 void run() {
   const std::uint16_t job = BENCH::job;
   if (job == 0) {
-    started = false;
+    started = 0;
   }
-  if (job == 0 || started || (asked != 0 && ROBOT_MODULE_STATE.nDone != asked)) {
+  if (job == started || (asked != 0 && ROBOT_MODULE_STATE.nDone != asked)) {
     return;
   }
   if (ROBOT_MODULE_STATE.eState == ROBOT_GROUP_ERRORSTOP) {
@@ -36,7 +36,7 @@ void run() {
     ask(SVC_AD_GROUP_ENABLE, 0);
   } else if (ROBOT_MODULE_STATE.eState == ROBOT_GROUP_STANDBY) {
     ask(SVC_JB_START, job);
-    started = true;
+    started = job;
   }
 }
 

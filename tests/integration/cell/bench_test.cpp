@@ -11,8 +11,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <iostream>
+#include <iterator>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -196,7 +198,7 @@ TEST_F(Bench, A_part_that_was_taken_away_is_left_out) {
   const auto put = items("part", 8, BENCH::PUT);
   EXPECT_EQ(put.size(), 3U);
   expect_in_slots(put, part_slot, worst);
-  EXPECT_THAT(message(), HasSubstr("1 were gone"));
+  EXPECT_THAT(message(), HasSubstr("1 were missing"));
 }
 
 TEST_F(Bench, Three_parts_that_were_taken_away_end_the_job) {
@@ -246,6 +248,20 @@ TEST_F(Bench, The_simulated_arm_is_where_the_robot_says) {
   for (const char* axis : {"0", "1", "2"}) {
     const std::string index = std::string("[") + axis + "]";
     EXPECT_NEAR(p.get<double>("BENCH::truth.tip" + index), p.get<double>("ROBOT_ARM.position" + index), 0.01);
+  }
+}
+
+// The page shows the jobs as they are.
+TEST(BenchPage, Has_the_text_of_each_job) {
+  const auto text = [](const std::string& file) {
+    std::ifstream stream(file);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  const std::string page = text(BENCH_PAGE);
+  for (const char* job : {"bench", "look", "sort", "grip", "release", "unstack"}) {
+    const std::string content = text(BENCH_DIR "/" + std::string(job) + ".job");
+    ASSERT_FALSE(content.empty()) << job;
+    EXPECT_TRUE(page.find("# " + std::string(job) + ".job\n" + content + "```") != std::string::npos) << job;
   }
 }
 
