@@ -27,7 +27,7 @@ void run() {
   if (job == 0) {
     started = 0;
   }
-  if (job == started || (asked != 0 && ROBOT_MODULE_STATE.nDone != asked)) {
+  if (job == started || ROBOT_MODULE_STATE.nDone < asked) {  // others may have requested something since
     return;
   }
   if (ROBOT_MODULE_STATE.eState == ROBOT_GROUP_ERRORSTOP) {

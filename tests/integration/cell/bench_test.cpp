@@ -16,6 +16,7 @@
 #include <iostream>
 #include <iterator>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,11 @@ class Bench : public ::testing::Test {
         },
         3min));
     return state() == "ROBOT_JOB_ENDED";
+  }
+  void request(const std::string& service) {
+    p.set("ROBOT_MODULE_SERVICE", "{eOpCode: " + service + ", nRequest: " +
+                                      std::to_string(p.get<unsigned>("ROBOT_MODULE_STATE.nAcknowledge") + 1) + "}");
+    p.run(100ms);
   }
   [[nodiscard]] std::string message() const { return p.get<std::string>("ROBOT_JOB.cMessage"); }
   [[nodiscard]] std::vector<BENCH::Item> items(const std::string& name, std::size_t count, BENCH::State state) const {
@@ -249,6 +255,59 @@ TEST_F(Bench, The_simulated_arm_is_where_the_robot_says) {
     const std::string index = std::string("[") + axis + "]";
     EXPECT_NEAR(p.get<double>("BENCH::truth.tip" + index), p.get<double>("ROBOT_ARM.position" + index), 0.01);
   }
+}
+
+// An emergency stop at any moment, also while the fingers close, open or hold something; then the job is resumed.
+TEST_F(Bench, After_emergency_stops_each_part_still_lies_in_its_place) {
+  const std::uint32_t seeds = count_of("INDUROP_BENCH_STOPS", 6);
+  Worst worst;
+  unsigned stops = 0;
+  for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    lay_out(seed, 3, 0, 0);
+    std::mt19937 random(seed);
+    std::uint64_t next = p.tick() + 100 + random() % 300;
+    const auto state = [this] { return p.get<std::string>("ROBOT_MODULE_STATE.eState"); };
+    ASSERT_TRUE(works(kSort, [&] {
+      if (p.tick() < next || p.get<std::string>("ROBOT_JOB.eState") == "ROBOT_JOB_ENDED") {
+        return;
+      }
+      next = p.tick() + 400 + random() % 300;
+      p.force("PLC_ROBOT::I14", 0);
+      EXPECT_TRUE(p.run_until([&] { return state() == "ROBOT_GROUP_ERRORSTOP"; }, 2s));
+      p.run(1s);
+      p.unforce("PLC_ROBOT::I14");
+      EXPECT_TRUE(p.run_until([&] { return p.get<int>("EMERGENCY_STOP.bActive") == 0; }, 1s));
+      ++stops;
+      request("SVC_AD_GROUP_RESET");
+      request("SVC_AD_GROUP_ENABLE");
+      EXPECT_TRUE(p.run_until([&] { return state() == "ROBOT_GROUP_STANDBY"; }, 2s));
+      ASSERT_EQ(p.get<int>("ROBOT_JOB.bResume"), 1);
+      request("SVC_JB_RESUME");
+      EXPECT_TRUE(p.run_until([&] { return state() == "ROBOT_GROUP_MOVING"; }, 2s));
+    })) << message();
+    const auto put = items("part", 8, BENCH::PUT);
+    EXPECT_EQ(put.size(), 3U);
+    expect_in_slots(put, part_slot, worst);
+  }
+  std::cout << stops << " stops: at most " << worst.distance << " mm and " << worst.angle << " deg off\n";
+  EXPECT_GE(stops, seeds);
+}
+
+TEST_F(Bench, Runs_are_the_same_each_time) {
+  std::vector<std::string> ends;
+  for (int run = 0; run < 2; ++run) {
+    Plant again(BENCH_DIR "/camera.xml");
+    again.set("BENCH::scene", "{seed: 11, parts: 3, others: 0, pieces: 0, snatch: 1}");
+    again.set("BENCH::job", kSort);
+    again.run(20s);
+    std::string& end = ends.emplace_back();
+    for (const char* name : {"BENCH::part", "BENCH::truth", "ROBOT_ARM", "ROBOT_JOB", "CAMERA::seen"}) {
+      end += again.get<std::string>(name) + "\n";
+    }
+  }
+  EXPECT_EQ(ends[0], ends[1]);
+  EXPECT_THAT(ends[0], HasSubstr("2 parts are on the pallet, 1 were missing"));
 }
 
 // The page shows the jobs as they are.
