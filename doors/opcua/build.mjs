@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bundles the program: node build.mjs [FOLDER]. The folder then holds all that Node.js 18 needs: the program, the types
-// that the standard defines, the licences of the packages, and the manual page.
+// that the standard and companion specifications define, the licences of the packages, and the manual page.
 import { execFileSync } from "node:child_process";
 import { chmod, copyFile, mkdir, readFile, rm, writeFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -45,8 +45,11 @@ await esbuild.build({
   logLevel: "warning",
 });
 await chmod(program, 0o755);
-const nodeset = "Opc.Ua.NodeSet2.ndjson.gz";
-await copyFile(join("node_modules/node-opcua-nodesets/nodesets", nodeset), join(folder, nodeset));
+// The standard, and what src/robotics/model.ts loads; of the OPC Foundation, under its MIT licence.
+for (const name of ["Opc.Ua.NodeSet2", "Opc.Ua.Di.NodeSet2", "Opc.Ua.IA.NodeSet2", "Opc.Ua.Robotics.NodeSet2"]) {
+  const file = `${name}.ndjson.gz`;
+  await copyFile(join("node_modules/node-opcua-nodesets/nodesets", file), join(folder, file));
+}
 // node-opcua reads one in the folder above its files.
 await writeFile(join(folder, "package.json"), `${JSON.stringify({ name: "indurop-opcua", version })}\n`);
 const help = execFileSync(process.execPath, [program, "--help"], { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] });

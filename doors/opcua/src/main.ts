@@ -5,6 +5,7 @@ import type { Namespace } from "node-opcua";
 
 import { log, message_of, take_messages } from "./log";
 import { read_options, UsageError, type Options } from "./options";
+import { Robots } from "./robotics/robots";
 import { read_token, ServeClient } from "./serve/http";
 import type { ServerStatus } from "./serve/types";
 import { Alarms } from "./server/alarms";
@@ -43,6 +44,7 @@ async function run(options: Options): Promise<void> {
   };
   boards.space = space;
   boards.methods = new Methods(space, make_call(client, users, types.construct));
+  boards.robots = new Robots(client, space, about.version);
   const alarms = new Alarms(client, users, boards, space);
   await boards.begin();
   if (options.check) {
@@ -51,7 +53,7 @@ async function run(options: Options): Promise<void> {
     await server.shutdown(0);
     return;
   }
-  watch_items(server, by_node, boards.follow, options.rate_hz);
+  watch_items(server, (node) => by_node.get(node) ?? boards.robots.find(node), boards.follow, options.rate_hz);
   users.begin(server);
   alarms.begin();
   await server.start();

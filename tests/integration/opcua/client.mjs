@@ -70,7 +70,10 @@ const actions = {
   },
   async browse({ node }) {
     const answer = await session.browse({ nodeId: node, referenceTypeId: "HierarchicalReferences", includeSubtypes: true, resultMask: 63 });
-    return (answer.references ?? []).map((one) => ({ node: one.nodeId.toString(), name: one.browseName.name, type: one.typeDefinition.toString() }));
+    return (answer.references ?? []).map((one) => ({
+      node: one.nodeId.toString(), name: one.browseName.name, type: one.typeDefinition.toString(),
+      namespace: one.browseName.namespaceIndex, reference: one.referenceTypeId.toString(), kind: ua.NodeClass[one.nodeClass],
+    }));
   },
   async read({ nodes, attribute, range }) {
     const wanted = nodes.map((nodeId) => ({ nodeId, attributeId: AttributeIds[attribute ?? "Value"], indexRange: range ? new ua.NumericRange(range) : undefined }));

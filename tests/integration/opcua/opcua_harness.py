@@ -21,6 +21,9 @@ API = "/api/v1"
 MODULE = """<root><module><filename>{file}</filename><moduletype>thread</moduletype>
 <operationtype>periodic</operationtype><period>1ms</period><priority>1</priority></module></root>
 """
+ROBOT_MODULE = """<module><filename>{file}</filename><moduletype>thread</moduletype><operationtype>{kind}</operationtype>
+<{time}>5ms</{time}><priority>{priority}</priority><budget>10s</budget>{more}</module>
+"""
 
 
 CLONE_NEWNET = 0x40000000
@@ -99,10 +102,48 @@ class Setting(harness.Setting):
         wait_for(lambda: self.get_count() > 10, "the node to count")
         return child
 
+    def start_robot(self, urdf=None):
+        """A node with the robot task of the robot cell and simulated drives. urdf: text of another arm."""
+        cell, source = (pathlib.Path(os.environ[name]) for name in ("ROBOT_CELL", "ROBOT_CELL_SOURCE"))
+        (self.folder / "robot.urdf").write_text(urdf or (source / "robot.urdf").read_text())
+        (self.folder / "wait.job").write_text("WAIT 3600s\n")
+        devices = "".join(f"<device name='axis{i}' driver='cia402' speed='540' following='30' in='PLC_ROBOT::AXIS{i}_IN' "
+                          f"out='PLC_ROBOT::AXIS{i}_OUT'/>\n" for i in range(1, 7))
+        (self.folder / "ioconfig.xml").write_text(f"<ioconfig>{devices}</ioconfig>\n")
+        values = lambda **all: "".join(f"<value name='{name}'>{value}</value>" for name, value in all.items())
+        properties = lambda **all: f"<property>{values(**all)}</property>"
+        periodic = {"kind": "periodic", "time": "period"}
+        (self.folder / "robot.xml").write_text("<root>" + "".join((
+            ROBOT_MODULE.format(file=os.environ["IO_MODULE"], priority=1, more=properties(config="ioconfig.xml"), **periodic),
+            ROBOT_MODULE.format(file=cell / "Robot.so", priority=2, **periodic,
+                                more=properties(urdf="robot.urdf", jobs="wait.job", following_limit=30)),
+            ROBOT_MODULE.format(file=cell / "estop.so", priority=1, kind="sporadic", time="deadline",
+                                more="<position>after-base</position>"))) + "</root>\n")
+        with (self.folder / "robot.log").open("w+") as log:
+            child = self.start(self.programs / "indurop", "run", "robot.xml", "--node", self.node, "-q", cwd=self.folder, stderr=log)
+            wait_for(lambda: child.poll() is not None or self.get("PLC_ROBOT::ROBOT_MODULE_STATE.nAXESGROUP"), "the robot task to run")
+            log.seek(0)
+            assert child.poll() is None, log.read()
+        self.set("PLC_ROBOT::I14", 1)
+        self.set("PLC_ROBOT::I15", 1)
+        wait_for(lambda: self.get("PLC_ROBOT::EMERGENCY_STOP.bActive") == 0, "no emergency stop")
+        return child
+
+    def indurop(self, verb, *words):
+        return subprocess.run([self.programs / "indurop", verb, "--node", self.node, *map(str, words)], capture_output=True, text=True,
+                              check=False, env=self.environment)
+
+    def get(self, name):
+        """The value as `indurop get` has it; None: it has none."""
+        done = self.indurop("get", "-o", "json", name)
+        return json.loads(done.stdout)["values"][0]["value"] if done.returncode == 0 else None
+
+    def set(self, name, value):
+        done = self.indurop("set", name, "--", value)
+        assert done.returncode == 0, done.stderr
+
     def get_count(self):
-        done = subprocess.run([self.programs / "indurop", "get", "--node", self.node, "-o", "json", "every::count"],
-                              capture_output=True, text=True, check=False, env=self.environment)
-        return json.loads(done.stdout)["values"][0]["value"] if done.returncode == 0 else 0
+        return self.get("every::count") or 0
 
     def start_opcua(self, server, *options):
         """Starts indurop-opcua; returns the endpoint's address."""

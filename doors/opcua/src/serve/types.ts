@@ -31,12 +31,18 @@ export interface VariableDescription {
   unit: string;
   range: Range | null;
   description: string;
+  writers?: string[] | null;  // modules; null: not known
 }
 
 export interface VariableList {
   board: string;
   layout: string;
   variables: VariableDescription[];
+}
+
+export interface RobotDescription {
+  module: string;
+  urdf: string;  // text of the file
 }
 
 export interface StreamBoard {

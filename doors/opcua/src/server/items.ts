@@ -6,10 +6,10 @@ import { AttributeIds, type MonitoredItem, type OPCUAServer, type ServerSession,
 
 import type { Follow } from "../space/follow";
 import type { InnerItem } from "../space/internals";
-import type { PartNode } from "../space/variable";
+import type { Watched } from "../space/variable";
 
-export function watch_items(server: OPCUAServer, by_node: Map<string, PartNode>, follow: Follow, rate_hz: number): void {
-  const watched = new WeakMap<MonitoredItem, PartNode>();
+export function watch_items(server: OPCUAServer, find: (node: string) => Watched | undefined, follow: Follow, rate_hz: number): void {
+  const watched = new WeakMap<MonitoredItem, Watched>();
 
   // The item reports at the rate that was requested, as far as values arrive that often.
   const report_changes = (item: MonitoredItem): void => {
@@ -19,7 +19,7 @@ export function watch_items(server: OPCUAServer, by_node: Map<string, PartNode>,
   };
   const begin = (item: MonitoredItem): void => {
     if (item.itemToMonitor.attributeId !== AttributeIds.Value) return;
-    const one = by_node.get(item.node?.nodeId.toString() ?? "");
+    const one = find(item.node?.nodeId.toString() ?? "");
     if (!one) return;
     watched.set(item, one);
     one.items++;

@@ -4,7 +4,6 @@
 import { mkdir, readFile } from "node:fs/promises";
 import { hostname } from "node:os";
 import { join } from "node:path";
-import { fileURLToPath } from "node:url";
 
 import {
   allPermissions, MessageSecurityMode, OPCUACertificateManager, OPCUAServer, PermissionType, SecurityPolicy, UserTokenType, WellKnownRoles,
@@ -13,6 +12,7 @@ import {
 
 import { log } from "../log";
 import { VERSION, type Options } from "../options";
+import { nodeset_file } from "../space/nodesets";
 import { MOST_VALUES } from "./history";
 import type { Users } from "./users";
 
@@ -27,10 +27,6 @@ const READ_ONLY = PermissionType.Browse | PermissionType.Read | PermissionType.R
 
 export function is_loopback(address: string): boolean {
   return address === "localhost" || address === "::1" || address.startsWith("127.");
-}
-
-function nodeset(): string {
-  return fileURLToPath(new URL("../Opc.Ua.NodeSet2.ndjson.gz", import.meta.url));
 }
 
 // Clients' certificates: on loopback any, elsewhere those in trusted/certs, and those of --ca.
@@ -99,7 +95,7 @@ export async function make_server(options: Options, users: Users): Promise<OPCUA
     host: options.bind,
     hostname: options.hosts[0] ?? address,
     alternateHostname: options.hosts.slice(1),
-    nodeset_filename: [nodeset()],
+    nodeset_filename: [nodeset_file("Opc.Ua.NodeSet2")],
     serverCertificateManager: manager,
     ...(options.cert ? { certificateFile: options.cert, privateKeyFile: options.key } : { certificateFile: join(options.state, "pki/own/certs/server.pem") }),
     serverInfo: { applicationUri: `urn:indurop:opcua:${options.hosts[0] ?? hostname()}`, productUri: "urn:indurop:opcua", applicationName: { text: "InduRoP" } },

@@ -5,6 +5,7 @@ import { log, message_of } from "../log";
 import { board_path, Refused, status, type ServeClient } from "../serve/http";
 import { Stream } from "../serve/stream";
 import type { FunctionDescription, StreamBoard, VariableList } from "../serve/types";
+import type { Robots } from "../robotics/robots";
 import { Follow } from "./follow";
 import type { Methods } from "./methods";
 import { BoardTree, notes_of, type Space } from "./tree";
@@ -19,10 +20,12 @@ export class Boards {
   on_alarms: (board: string) => void = () => {};
   private readonly stream: Stream;
   private readonly updates = new Map<string, Promise<void>>();  // one at a time of each board
+  private readonly running = new Set<string>();  // boards with a node
   private readonly noted = new Set<string>();
   private sweeping: NodeJS.Timeout | undefined;
   space!: Space;
   methods!: Methods;
+  robots!: Robots;
 
   constructor(private readonly client: ServeClient, rate_hz: number) {
     this.stream = new Stream(client, {
@@ -36,11 +39,13 @@ export class Boards {
       rejected: (id, message) => this.follow.rejected(id, message),
     });
     this.follow = new Follow(this.stream, rate_hz);
+    this.follow.on_start = (board) => this.robots.started(board);
   }
 
   // Boards that are there now. Throws Refused.
   async begin(): Promise<void> {
     const { boards } = await this.client.get<{ boards: StreamBoard[] }>("boards");
+    for (const { board, alive } of boards) if (alive) this.running.add(board);
     await Promise.all(boards.map(({ board, layout }) => this.update(board, layout)));
     this.stream.open();
     this.sweeping = setInterval(() => { for (const tree of this.trees.values()) tree.sweep(); }, SWEEP_MS);
@@ -49,6 +54,7 @@ export class Boards {
   stop(): void {
     clearInterval(this.sweeping);
     this.follow.stop();
+    this.robots.stop();
     this.stream.close();
   }
 
@@ -58,7 +64,12 @@ export class Boards {
   }
 
   private heard(boards: StreamBoard[]): void {
-    for (const { board, layout } of boards) void this.update(board, layout);
+    for (const { board, alive, layout } of boards) {
+      void this.update(board, layout);
+      if (alive && !this.running.has(board) && this.trees.get(board)?.layout === layout) this.robots.started(board);
+      if (alive) this.running.add(board);
+      else this.running.delete(board);
+    }
   }
 
   private subscribed(board: string, layout: string, known: () => void): void {
@@ -88,7 +99,8 @@ export class Boards {
       this.follow.forget_board(board);
       await tree.update(list.variables, list.layout, here !== false);
       await this.methods.update(tree, here === false ? [] : await this.functions_of(board));
-      this.note([...notes_of(list.variables), ...this.space.types.notes].map((note) => `${board}: ${note}`));
+      const unshown = await this.robots.update(tree, list.variables, here !== false);
+      this.note([...notes_of(list.variables), ...unshown, ...this.space.types.notes].map((note) => `${board}: ${note}`));
       this.follow.renew_board(board);
       await this.on_update(tree);
     } catch (error) {

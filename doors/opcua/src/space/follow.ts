@@ -47,6 +47,7 @@ export class Follow {
   private gathering: NodeJS.Timeout | undefined;
   private readonly sweeping: NodeJS.Timeout;
   connected = false;
+  on_start: (board: string) => void = () => {};  // its node was seen to run again
 
   constructor(private readonly to: Subscriber, private readonly rate_hz: number) {
     this.sweeping = setInterval(() => this.sweep(), SWEEP_MS);
@@ -159,6 +160,7 @@ export class Follow {
   received(frame: Frame): void {
     const group = this.by_stream.get(frame.stream);
     if (!group) return;
+    if (frame.alive && group.bytes && !group.alive) this.on_start(group.board);
     group.bytes = frame.bytes;
     group.alive = frame.alive;
     group.wall_ms = frame.wall_ms;

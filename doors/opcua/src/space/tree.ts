@@ -9,6 +9,7 @@ import { unit_of } from "../model/units";
 import type { VariableDescription } from "../serve/types";
 import type { Follow } from "./follow";
 import { put_value, type HistoryRead, type InnerVariable, type WriteAttribute } from "./internals";
+import { read_through } from "./read";
 import type { Types } from "./types";
 import { unknown_node, Variable, type PartNode } from "./variable";
 
@@ -54,6 +55,14 @@ export class BoardTree {
 
   variable(name: string): Variable | undefined {
     return this.variables.get(name);
+  }
+
+  // The variable of a part, and the part.
+  find(path: string): { variable: Variable; part: Part } | undefined {
+    const variable = this.variables.get(/^(?:.*::)?\w+/.exec(path)?.[0] ?? "");
+    if (!variable || variable.gone) return undefined;
+    for (const part of parts_below(variable.part)) if (part.path === path) return { variable, part };
+    return undefined;
   }
 
   node_of(path: string): UAVariable | undefined {
@@ -162,10 +171,9 @@ export class BoardTree {
       typeDefinition: part.range ? "AnalogItemType" : part.unit ? "AnalogUnitType" : "BaseDataVariableType",
     } as any) as unknown as InnerVariable;
     const one: PartNode = { part, node, variable, items: 0, parent, shown: true };
-    node.refreshFunc = refresh;
     node.writeAttribute = write;
     node._historyRead = read_history;
-    inner.set(node, { one, follow: this.space.follow });
+    read_through(one, this.space.follow);
     variable.parts.set(part.path, one);
     by_node.set(node.nodeId.toString(), one);
     this.add_properties(node, part);
@@ -226,16 +234,4 @@ export class BoardTree {
     }
     return folder;
   }
-}
-
-// What the functions of a node need; they are the same for all nodes.
-const inner = new WeakMap<UAVariable, { one: PartNode; follow: Follow }>();
-
-function refresh(this: UAVariable, done: (error: Error | null, value: ReturnType<typeof unknown_node>) => void): void {
-  const { one, follow } = inner.get(this)!;
-  const { variable } = one;
-  follow.when_known(variable, () => {
-    one.node.$dataValue = variable.gone ? unknown_node() : variable.value_of(one.part);
-    done(null, one.node.$dataValue);
-  });
 }

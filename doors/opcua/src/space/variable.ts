@@ -7,11 +7,19 @@ import { bytes_of, type Part } from "../model/part";
 import { variant_at, type Construct } from "../model/values";
 import { put_value, type InnerVariable } from "./internals";
 
-export interface PartNode {
+// A node that has the value of a part, or one that is derived from it.
+export interface Watched {
   part: Part;
   node: InnerVariable;
   variable: Variable;
   items: number;  // monitored items
+  derive?: Derive;
+}
+
+// From the part's value. null: it does not say that.
+export type Derive = (value: any) => Variant | null;
+
+export interface PartNode extends Watched {
   parent: BaseNode;
   shown: boolean;  // it has a place in the tree
 }
@@ -40,7 +48,7 @@ function code_of(alive: boolean, quality: number): StatusCode {
 
 export class Variable {
   readonly parts = new Map<string, PartNode>();
-  readonly monitored = new Set<PartNode>();
+  readonly monitored = new Set<Watched>();
   gone = false;  // its board has no such variable any more
   wanted_until_ms = 0;
   waiting: (() => void)[] = [];  // reads that wait for the first frame
@@ -85,11 +93,13 @@ export class Variable {
     this.wake();
   }
 
-  value_of(part: Part): DataValue {
+  value_for({ part, derive }: Watched): DataValue {
     const bad = this.bytes === null || this.code.isBad();
+    let value: Variant | null = bad ? new Variant() : variant_at(this.bytes!, this.offset + part.offset, part.form, this.construct);
+    if (derive && !bad) value = derive(value.value);
     return new DataValue({
-      value: bad ? new Variant() : variant_at(this.bytes!, this.offset + part.offset, part.form, this.construct),
-      statusCode: this.code,
+      value: value ?? new Variant(),
+      statusCode: value ? this.code : StatusCodes.BadNotSupported,
       sourceTimestamp: this.changed,
       serverTimestamp: new Date(),
     });
@@ -101,13 +111,19 @@ export class Variable {
     for (const done of waiting) done();
   }
 
-  private tell(one: PartNode): void {
-    put_value(one.node, this.value_of(one.part));
+  private tell(one: Watched): void {
+    const value = this.value_for(one);
+    if (one.derive && is_same(value, one.node.$dataValue)) return;  // of a struct, other fields have changed
+    put_value(one.node, value);
   }
 }
 
 export function unknown_node(): DataValue {
   return SERVER_ONLY.clone();
+}
+
+function is_same(a: DataValue, b: DataValue): boolean {
+  return a.statusCode === b.statusCode && a.value.value === b.value.value;
 }
 
 function same_bytes(a: Buffer, at_a: number, b: Buffer, at_b: number, length: number): boolean {
