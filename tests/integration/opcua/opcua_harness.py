@@ -102,8 +102,9 @@ class Setting(harness.Setting):
         wait_for(lambda: self.get_count() > 10, "the node to count")
         return child
 
-    def start_robot(self, urdf=None):
-        """A node with the robot task of the robot cell and simulated drives. urdf: text of another arm."""
+    def start_robot(self, urdf=None, second=None):
+        """A node with the robot task of the robot cell and simulated drives. urdf: text of another arm. second: file of the arm of a
+        second robot, which has no drives."""
         cell, source = (pathlib.Path(os.environ[name]) for name in ("ROBOT_CELL", "ROBOT_CELL_SOURCE"))
         (self.folder / "robot.urdf").write_text(urdf or (source / "robot.urdf").read_text())
         (self.folder / "wait.job").write_text("WAIT 3600s\n")
@@ -113,12 +114,13 @@ class Setting(harness.Setting):
         values = lambda **all: "".join(f"<value name='{name}'>{value}</value>" for name, value in all.items())
         properties = lambda **all: f"<property>{values(**all)}</property>"
         periodic = {"kind": "periodic", "time": "period"}
+        more = [ROBOT_MODULE.format(file=os.environ["SECOND_ROBOT"], priority=2, more=properties(urdf=second), **periodic)] if second else []
         (self.folder / "robot.xml").write_text("<root>" + "".join((
             ROBOT_MODULE.format(file=os.environ["IO_MODULE"], priority=1, more=properties(config="ioconfig.xml"), **periodic),
             ROBOT_MODULE.format(file=cell / "Robot.so", priority=2, **periodic,
                                 more=properties(urdf="robot.urdf", jobs="wait.job", following_limit=30)),
             ROBOT_MODULE.format(file=cell / "estop.so", priority=1, kind="sporadic", time="deadline",
-                                more="<position>after-base</position>"))) + "</root>\n")
+                                more="<position>after-base</position>"), *more)) + "</root>\n")
         with (self.folder / "robot.log").open("w+") as log:
             child = self.start(self.programs / "indurop", "run", "robot.xml", "--node", self.node, "-q", cwd=self.folder, stderr=log)
             wait_for(lambda: child.poll() is not None or self.get("PLC_ROBOT::ROBOT_MODULE_STATE.nAXESGROUP"), "the robot task to run")

@@ -303,6 +303,22 @@ def test_another_arm(setting):
     Checker(shown.space).check(shown.system, NODESETS.named(ROBOTICS, "MotionDeviceSystemType"))
 
 
+def test_two_robots(setting):
+    """They have a controller and the emergency stop of the cell in common."""
+    _, _, client = begin(setting, second=os.environ["SEVEN_AXES"])
+    wait_for(lambda: setting.get("PLC_ROBOT2::ROBOT_MODULE_STATE.nAXESGROUP") == 7, "the second robot")
+    space = wait_for(lambda: (one := Space(client)) and len(one.children(one.member(one.systems()[0], "MotionDevices"))) == 2 and one,
+                     "two robots")
+    system, = space.systems()
+    Checker(space).check(system, NODESETS.named(ROBOTICS, "MotionDeviceSystemType"))
+    axes = {name: len(space.children(space.member(system, "MotionDevices", name, "Axes"))) for name in ("PLC_ROBOT", "PLC_ROBOT2")}
+    assert axes == {"PLC_ROBOT": 6, "PLC_ROBOT2": 7}, axes
+    setting.set("PLC_ROBOT::I14", 0)
+    for name in axes:
+        stop = space.member(system, "SafetyStates", name, "ParameterSet", "EmergencyStop")
+        wait_for(lambda stop=stop: client.read(stop)["value"] is True, f"the emergency stop of {name}")
+
+
 def test_a_deployment_without_the_robot(setting):
     node, _, client = begin(setting)
     shown = Shown(client)

@@ -31,7 +31,7 @@ const NEEDED: Record<string, Record<string, Form["kind"]>> = {
   AXIS_STATE: { dPosition: "f64", dActualVelocity: "f64" },
 };
 const EMERGENCY_STOP = "EMERGENCY_STOP";
-const CELL = "PLC_ROBOT::";  // a second robot of the board shares the emergency stop of the first
+const CELL = "PLC_ROBOT::";  // all robots of a board share the emergency stop of the cell
 
 export interface Group {
   prefix: string;
@@ -66,7 +66,7 @@ export function find_groups(list: VariableDescription[]): Found {
     const match = /^(.*::)?ROBOT_ARM$/.exec(name);
     if (!match || form.kind !== "struct") continue;
     const prefix = match[1] ?? "";
-    const stop = [prefix, CELL].map((where) => where + EMERGENCY_STOP).find((one) => variables.get(one)?.form.fields?.some((field) => field.name === "bActive"));
+    const stop = [CELL, prefix].map((where) => where + EMERGENCY_STOP).find((one) => variables.get(one)?.form.fields?.some((field) => field.name === "bActive"));
     const missing = missing_of(variables, prefix) ?? (stop ? undefined : `${prefix}${EMERGENCY_STOP}.bActive`);
     if (missing || !stop) {
       found.notes.push(`${name}: the robot is not in DeviceSet, because there is no ${missing}; use the plc_robot.glb of this release`);

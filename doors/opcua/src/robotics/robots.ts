@@ -12,7 +12,8 @@ import { describe, find_groups, type Group, type Robot } from "./robot";
 import { System } from "./system";
 import type { View } from "./view";
 
-const RETRY_MS = 2000;
+const RETRY_MS = 1000;  // at first, then twice as long each time
+const LONGEST_RETRY_MS = 60_000;
 
 interface Latest {
   tree: BoardTree;
@@ -28,6 +29,7 @@ export class Robots {
   private readonly latest = new Map<string, Latest>();
   private readonly turns = new Map<string, Promise<void>>();  // one at a time of each board
   private readonly retries = new Map<string, NodeJS.Timeout>();
+  private readonly tries = new Map<string, number>();  // since the board's variables or its node have changed
   private model: Promise<Model> | undefined;
 
   constructor(private readonly client: ServeClient, private readonly space: Space, private readonly version: string) {}
@@ -41,12 +43,14 @@ export class Robots {
   async update(tree: BoardTree, list: VariableDescription[], here: boolean): Promise<string[]> {
     const { groups, notes } = find_groups(list);
     this.latest.set(tree.board, { tree, layout: tree.layout, groups, here });
+    this.tries.delete(tree.board);
     if (groups.length > 0 || this.systems.has(tree.board)) await this.renew(tree.board);
     return notes;
   }
 
   // The node of a board has started: the number of axes may be another.
   started(board: string): void {
+    this.tries.delete(board);
     if (this.latest.get(board)?.groups.length) void this.renew(board);
   }
 
@@ -66,8 +70,10 @@ export class Robots {
   }
 
   private try_again(board: string): void {
+    const tries = this.tries.get(board) ?? 0;
+    this.tries.set(board, tries + 1);
     clearTimeout(this.retries.get(board));
-    this.retries.set(board, setTimeout(() => void this.renew(board), RETRY_MS));
+    this.retries.set(board, setTimeout(() => void this.renew(board), Math.min(RETRY_MS * 2 ** tries, LONGEST_RETRY_MS)));
   }
 
   private async show(board: string): Promise<void> {
