@@ -99,7 +99,8 @@ const actions = {
     const answers = [];
     for (const nodeId of nodes) {
       const item = await subscription.monitor({ nodeId, attributeId: AttributeIds.Value }, { samplingInterval: interval ?? 100, queueSize: 1, discardOldest: true }, TimestampsToReturn.Both);
-      item.on("changed", (value) => { changes[nodeId] = { ...shown(value), count: (changes[nodeId]?.count ?? 0) + 1 }; });
+      // A value that is not known in time is reported as such first.
+      item.on("changed", (value) => { changes[nodeId] = { ...shown(value), count: (changes[nodeId]?.count ?? 0) + (value.statusCode.isGood() ? 1 : 0) }; });
       items.set(nodeId, item);
       answers.push(item.statusCode?.name ?? "Good");
     }
