@@ -37,6 +37,7 @@ BOARD = """<board name="{name}"><module><name>main</name><filename>{modules}/tar
 <moduletype>thread</moduletype><operationtype>periodic</operationtype><period>20ms</period><budget>60s</budget><priority>1</priority>
 <property><value name="data">data.bin</value></property></module></board>
 """
+WITH_US = ("setpriv", "--pdeathsig", "KILL")  # a program ends with the thread that started it
 RESTORED = re.compile(r"restored ([\d ]+)$")
 STEP = re.compile(r"(deployment|release) (?:\S+ \()?([0-9a-f]{12})\)?(?: of \S+)?: (\w+)")
 
@@ -51,7 +52,7 @@ class Machine:
         environment = {**os.environ, "PATH": f"{options.release}/bin:{os.environ['PATH']}", "HOME": str(work)}
         # pylint: disable-next=consider-using-with
         self.process = subprocess.Popen(
-            ["unshare", "--mount", "--net", "--ipc", "--pid", "--mount-proc", "--fork", "--kill-child", "python3",
+            [*WITH_US, "unshare", "--mount", "--net", "--ipc", "--pid", "--mount-proc", "--fork", "--kill-child", "python3",
              HERE / "plant_life.py", disk, work, "--boards", str(options.boards), *words],
             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
         self.lines = []
@@ -174,7 +175,7 @@ def write_sparse(file, content):
         out.truncate(len(content))
         for offset in range(0, len(content), BLOCK):
             block = content[offset:offset + BLOCK]
-            if any(block):
+            if block.count(0) < len(block):
                 out.seek(offset)
                 out.write(block)
 
@@ -205,7 +206,7 @@ class Story:
         folder = self.folder / f"life{number}"
         (folder / "fuse").mkdir(parents=True)
         disk = LoggedDisk(str(folder / "socket"), self.image)
-        with subprocess.Popen(["nbdfuse", folder / "fuse", f"nbd+unix:///?socket={folder}/socket"],
+        with subprocess.Popen([*WITH_US, "nbdfuse", folder / "fuse", f"nbd+unix:///?socket={folder}/socket"],
                               stderr=subprocess.DEVNULL) as fuse:
             while not (folder / "fuse/nbd").exists():
                 time.sleep(0.05)
@@ -214,6 +215,8 @@ class Story:
             end = time.monotonic() + BACK_WITHIN
             while not machine.has_said("releases", "empty") and machine.process.poll() is None and time.monotonic() < end:
                 time.sleep(0.1)
+            if not machine.has_said("releases", "empty"):
+                self.judge.findings.append(f"life {number}: the plant did not come back")
             time.sleep(self.options.seconds)
             log = list(disk.log)
             machine.end()
@@ -242,15 +245,15 @@ class Story:
                 self.judge.count["sectors lost"] += cached - kept
                 name = f"cut {self.cuts}, {kept} of {cached} sectors kept"
                 write_sparse(self.folder / f"{self.cuts}.disk", left)
-                waiting.append(pool.submit(self._look, self.cuts, name, known))
+                waiting.append(pool.submit(self._check, self.cuts, name, known))
             for one in waiting:
                 one.result()
         self.image, self.known = left, known
 
-    def _look(self, number, name, known):
+    def _check(self, number, name, known):
         file = self.folder / f"{number}.disk"
-        kept = self.folder / f"{number}.kept"
-        subprocess.run(["cp", "--sparse=always", file, kept], check=True)
+        if self.options.keep:
+            subprocess.run(["cp", "--sparse=always", file, self.options.keep], check=True)
         work = self.folder / f"work{number}"
         machine = Machine(self.options, file, work)
         try:
@@ -264,10 +267,9 @@ class Story:
             self.judge.findings.append(f"{name}: e2fsck: {judged.stdout[-300:]} {judged.stderr[-300:]}")
         for text in wrong:
             print(f"    WRONG {name}: {text}", flush=True)
-        if wrong and self.options.keep:
-            shutil.copy(kept, self.options.keep / f"{number}.disk")
+        if self.options.keep and not wrong:
+            (self.options.keep / file.name).unlink()
         file.unlink()
-        kept.unlink()
         shutil.rmtree(work)
 
 
