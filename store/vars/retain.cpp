@@ -21,6 +21,7 @@
 #include "store/vars/os_error.h"
 #include "store/vars/retain_format.h"
 #include "store/vars/shm_file.h"
+#include "store/vars/snapshot.h"
 
 namespace indurop::vars {
 
@@ -95,22 +96,55 @@ class Restorer {
   RetainReport& report_;
 };
 
+Status read_each(const Store& store, const std::vector<PartToRead>& parts) {
+  for (const PartToRead& part : parts) {
+    if (Status status = store.read(*part.variable, part.offset, part.to); !status) {
+      return status;
+    }
+  }
+  return {};
+}
+
+bool is_of_this_board(const Store& store, const DirectoryEntry& entry) {
+  return abi::update_offset_of(store.entry(entry.name_hash, 0), entry.kind).load(std::memory_order_relaxed) == 0;
+}
+
+// Values of this board are of one instant, so that those that belong together fit. If they are written without a pause,
+// and always for values that other boards send, each is whole, but of its own instant.
+Status read_values(const Store& store, const std::vector<PartToRead>& parts) {
+  std::vector<PartToRead> own;
+  std::vector<PartToRead> sent;
+  for (const PartToRead& part : parts) {
+    (is_of_this_board(store, *part.variable) ? own : sent).push_back(part);
+  }
+  Status status = read_snapshot(store, own);
+  if (!status && status.error().code == Errc::Busy) {
+    status = read_each(store, own);
+  }
+  return status ? read_each(store, sent) : status;
+}
+
 Result<Bytes> collect(const Store& store, const std::string& types, const Bytes& kept) {
+  const auto directory = store.directory();
+  std::vector<Bytes> values;
+  values.reserve(directory.size());
+  std::vector<PartToRead> parts;
+  for (const DirectoryEntry& entry : directory) {
+    if ((entry.flags & kRetain) != 0) {
+      parts.push_back({&entry, 0, values.emplace_back(entry.value_size)});
+    }
+  }
+  if (Status status = read_values(store, parts); !status) {
+    return status.error();
+  }
   Bytes payload;
   append_types(payload, types);
   const std::size_t without_records = payload.size();
-  Bytes value;
-  for (const DirectoryEntry& entry : store.directory()) {
-    if ((entry.flags & kRetain) == 0) {
-      continue;
-    }
-    value.resize(entry.value_size);
-    if (Status status = store.read(entry, 0, value); !status) {
-      return status.error();
-    }
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const DirectoryEntry& entry = *parts[i].variable;
     const std::string& name = store.schema().variables[entry.schema_index].name;
     const auto length = static_cast<std::uint32_t>(name.size());
-    append_record(payload, {{entry.name_hash, entry.type_hash, length, entry.value_size}, name, value});
+    append_record(payload, {{entry.name_hash, entry.type_hash, length, entry.value_size}, name, values[i]});
   }
   payload.insert(payload.end(), kept.begin(), kept.end());
   return payload.size() > without_records ? payload : Bytes{};
