@@ -19,6 +19,13 @@ std::filesystem::path before(const std::filesystem::path& file) {
   return file.string() + ".1";
 }
 
+// A loss of power or a full disk may have left a part of a line.
+bool ends_within_a_line(int file) {
+  const off_t size = ::lseek(file, 0, SEEK_END);
+  char last = '\n';
+  return size > 0 && ::pread(file, &last, 1, size - 1) == 1 && last != '\n';
+}
+
 }  // namespace
 
 std::string append_line(const LineJournal& journal, std::string line) {
@@ -27,10 +34,16 @@ std::string append_line(const LineJournal& journal, std::string line) {
   if (const auto size = std::filesystem::file_size(journal.file, error); !error && size > journal.max_bytes) {
     std::filesystem::rename(journal.file, before(journal.file), error);
   }
-  line += '\n';
-  const Descriptor fd(::open(journal.file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, journal.mode));
-  const bool good = fd.is_open() && ::write(fd.get(), line.data(), line.size()) == static_cast<ssize_t>(line.size()) &&
-                    (journal.durable == Durable::No || ::fdatasync(fd.get()) == 0);
+  const Descriptor fd(::open(journal.file.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, journal.mode));
+  if (!fd.is_open()) {
+    return std::strerror(errno);
+  }
+  line = (ends_within_a_line(fd.get()) ? "\n" : "") + line + '\n';
+  const ssize_t written = ::write(fd.get(), line.data(), line.size());
+  if (written >= 0 && static_cast<std::size_t>(written) < line.size()) {
+    return std::strerror(ENOSPC);
+  }
+  const bool good = written >= 0 && (journal.durable == Durable::No || ::fdatasync(fd.get()) == 0);
   return good ? std::string() : std::strerror(errno);
 }
 

@@ -23,8 +23,8 @@ struct LineJournal {
   Durable durable = Durable::No;
 };
 
-// Appends `line`, which has no '
-// ' at its end, as a whole; creates the folder. Returns why that failed, else an empty string.
+// Appends `line`, which contains no line break, as a whole; creates the folder. After a part of a line, which a loss of
+// power may leave, it begins a new one. Returns why that failed, else an empty string.
 std::string append_line(const LineJournal& journal, std::string line);
 // Calls `use` for each line, oldest first, including those of FILE.1; for none if there is no such file.
 void each_line(const std::filesystem::path& file, const std::function<void(std::string_view)>& use);

@@ -2,7 +2,9 @@
 #include "core/base/line_journal.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,33 @@ TEST_F(LineJournals, A_file_that_has_grown_is_put_aside_and_the_one_before_it_go
     ASSERT_EQ(append_line(journal(25), line), "");
   }
   EXPECT_EQ(lines(), (std::vector<std::string>{"line    4", "line    5", "line    6", "line    7"}));
+}
+
+TEST_F(LineJournals, A_line_that_was_cut_anywhere_does_not_damage_the_next_one) {
+  const std::string whole = "first\nsecond\n";
+  for (std::size_t size = 0; size <= whole.size(); ++size) {
+    ASSERT_EQ(append_line(journal(1000), "creates the folder"), "");
+    write("deep/journal", whole.substr(0, size));
+    ASSERT_EQ(append_line(journal(1000), "next"), "");
+    const std::vector<std::string> found = lines();
+    EXPECT_EQ(found.back(), "next") << "cut at byte " << size;
+    EXPECT_EQ(size >= 5, found.front() == "first") << "cut at byte " << size;
+  }
+}
+
+TEST_F(LineJournals, A_full_disk_is_said_and_leaves_the_lines_before_and_after_it) {
+  ASSERT_EQ(append_line(journal(1000), "before"), "");
+  rlimit usual{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &usual), 0);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit full = usual;
+  full.rlim_cur = 10;
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
+  EXPECT_EQ(append_line(journal(1000), "too long for it"), "No space left on device");
+  EXPECT_EQ(append_line(journal(1000), "and this"), "File too large");
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &usual), 0);
+  ASSERT_EQ(append_line(journal(1000), "after"), "");
+  EXPECT_EQ(lines(), (std::vector<std::string>{"before", "too", "after"}));
 }
 
 TEST_F(LineJournals, Says_why_a_line_cannot_be_kept) {
