@@ -5,6 +5,7 @@ import type { Namespace } from "node-opcua";
 
 import { log, message_of, take_messages } from "./log";
 import { read_options, UsageError, type Options } from "./options";
+import { Programs } from "./plc/programs";
 import { Robots } from "./robotics/robots";
 import { read_token, ServeClient } from "./serve/http";
 import type { ServerStatus } from "./serve/types";
@@ -45,6 +46,7 @@ async function run(options: Options): Promise<void> {
   boards.space = space;
   boards.methods = new Methods(space, make_call(client, users, types.construct));
   boards.robots = new Robots(client, space, about.version);
+  boards.programs = new Programs(client, space, about.version);
   const alarms = new Alarms(client, users, boards, space);
   await boards.begin();
   if (options.check) {

@@ -3,10 +3,9 @@
 // plants without one do not wait for them.
 
 import { DataType, LocalizedText, type AddressSpace, type BaseNode, type Namespace, type NodeId, type UAObject, type UAVariable } from "node-opcua";
-import { generateAddressSpace } from "node-opcua-address-space/nodeJS";
 
 import { unit_of } from "../model/units";
-import { nodeset_file } from "../space/nodesets";
+import { load_nodesets } from "../space/nodesets";
 
 const FILES = ["Opc.Ua.Di.NodeSet2", "Opc.Ua.IA.NodeSet2", "Opc.Ua.Robotics.NodeSet2"];
 const DI = "http://opcfoundation.org/UA/DI/";
@@ -27,7 +26,7 @@ export class Model {
   }
 
   static async load(space: AddressSpace, namespace: Namespace): Promise<Model> {
-    await generateAddressSpace(space, FILES.map(nodeset_file));
+    await load_nodesets(space, FILES);
     return new Model(space, namespace);
   }
 

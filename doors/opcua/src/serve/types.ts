@@ -32,6 +32,7 @@ export interface VariableDescription {
   range: Range | null;
   description: string;
   writers?: string[] | null;  // modules; null: not known
+  readers?: string[] | null;
 }
 
 export interface VariableList {
@@ -43,6 +44,19 @@ export interface VariableList {
 export interface RobotDescription {
   module: string;
   urdf: string;  // text of the file
+}
+
+export interface ModuleDescription {
+  name: string;
+  operation: string;
+  period_ns: number;
+  priority: number;
+}
+
+// Of a program that was given with `--plc` and that the board runs.
+export interface PlcDescription {
+  program: string;  // its module
+  programs: string[];  // all that were given
 }
 
 export interface StreamBoard {

@@ -5,6 +5,7 @@ import { log, message_of } from "../log";
 import { board_path, Refused, status, type ServeClient } from "../serve/http";
 import { Stream } from "../serve/stream";
 import type { FunctionDescription, StreamBoard, VariableList } from "../serve/types";
+import type { Programs } from "../plc/programs";
 import type { Robots } from "../robotics/robots";
 import { Follow } from "./follow";
 import type { Methods } from "./methods";
@@ -26,6 +27,7 @@ export class Boards {
   space!: Space;
   methods!: Methods;
   robots!: Robots;
+  programs!: Programs;
 
   constructor(private readonly client: ServeClient, rate_hz: number) {
     this.stream = new Stream(client, {
@@ -100,6 +102,7 @@ export class Boards {
       await tree.update(list.variables, list.layout, here !== false);
       await this.methods.update(tree, here === false ? [] : await this.functions_of(board));
       const unshown = await this.robots.update(tree, list.variables, here !== false);
+      await this.programs.update(tree, list.variables, here !== false);
       this.note([...notes_of(list.variables), ...unshown, ...this.space.types.notes].map((note) => `${board}: ${note}`));
       this.follow.renew_board(board);
       await this.on_update(tree);
