@@ -2,12 +2,12 @@
 // The PLC programs of all boards by the model of OPC 30000: those that `indurop serve --plc` was given and the board
 // runs. A plant without them has none of it.
 
-import { DataType, type UAObject } from "node-opcua";
+import { DataType, type UAObject, type UAObjectType } from "node-opcua";
 
 import { log, message_of } from "../log";
-import { node_at, set_name, set_text } from "../robotics/model";
 import { board_path, Refused, type ServeClient } from "../serve/http";
 import type { ModuleDescription, PlcDescription, VariableDescription } from "../serve/types";
+import { node_at, set_name, set_text } from "../space/set";
 import type { BoardTree, Space } from "../space/tree";
 import { PlcModel } from "./model";
 
@@ -57,7 +57,8 @@ export class Programs {
     for (const module of modules) {
       const { program, task } = this.program_of(model, tree.board, resource, module);
       node_at(task, "Priority").setValueFromSource({ dataType: DataType.UInt32, value: module.priority });
-      if (module.operation === "periodic") set_text(task, "Interval", time_of(module.period_ns));
+      const interval = module.operation === "periodic" ? time_of(module.period_ns) : "";
+      if (task.getChildByName("Interval")) set_text(task, "Interval", interval);
       for (const { name, writers, readers } of list) {
         const node = /_watch$/.test(name) ? undefined : tree.node_of(name);  // not of the program: made by `--watch`
         if (node && [...(writers ?? []), ...(readers ?? [])].includes(module.name)) {
@@ -72,10 +73,10 @@ export class Programs {
     let shown = this.shown.get(id);
     if (!shown) {
       const type_id = `type/${id}`;
-      const type = this.space.namespace.findNode(`s=${type_id}`) ?? model.add_program_type(type_id, name);
+      const type = (this.space.namespace.findNode(`s=${type_id}`) as UAObjectType | null) ?? model.add_program_type(type_id, name);
       const optionals = operation === "periodic" ? ["Interval"] : [];
       shown = {
-        program: model.add(type as any, id, name, model.folder(resource, "Programs")),
+        program: model.add(type, id, name, model.folder(resource, "Programs")),
         task: model.add("CtrlTaskType", `${id}/task`, name, model.folder(resource, "Tasks"), optionals),
       };
       shown.program.addReference({ referenceType: model.with_task, nodeId: shown.task.nodeId });

@@ -6,7 +6,8 @@ import type { BaseNode, UAObject } from "node-opcua";
 
 import type { BoardTree, Space } from "../space/tree";
 import type { Derive } from "../space/variable";
-import { node_at, type Model, type Place } from "./model";
+import { node_at } from "../space/set";
+import type { Model, Place } from "./model";
 import { View } from "./view";
 
 export interface Shared {

@@ -2,9 +2,8 @@
 // The types of OPC 40010-1 (Robotics), with DI and IA, which it requires. They are loaded for the first robot, so that
 // plants without one do not wait for them.
 
-import { DataType, LocalizedText, type AddressSpace, type BaseNode, type Namespace, type NodeId, type UAObject, type UAVariable } from "node-opcua";
+import type { AddressSpace, BaseNode, Namespace, NodeId, UAObject } from "node-opcua";
 
-import { unit_of } from "../model/units";
 import { load_nodesets } from "../space/nodesets";
 
 const FILES = ["Opc.Ua.Di.NodeSet2", "Opc.Ua.IA.NodeSet2", "Opc.Ua.Robotics.NodeSet2"];
@@ -53,25 +52,4 @@ export class Model {
   private index(uri: string): number {
     return this.space.getNamespaceIndex(uri);
   }
-}
-
-// The node of a path of names, "ParameterSet/ActualPosition".
-export function node_at(from: BaseNode, path: string): UAVariable {
-  return path.split("/").reduce((node: BaseNode, name) => node.getChildByName(name)!, from) as UAVariable;
-}
-
-export function set_text(from: BaseNode, path: string, value: string): void {
-  node_at(from, path).setValueFromSource({ dataType: DataType.String, value });
-}
-
-export function set_name(from: BaseNode, path: string, value: string): void {
-  node_at(from, path).setValueFromSource({ dataType: DataType.LocalizedText, value: new LocalizedText({ text: value }) });
-}
-
-export function set_number(from: BaseNode, path: string, value: number): void {
-  node_at(from, path).setValueFromSource({ dataType: DataType.Int32, value });
-}
-
-export function set_unit(from: BaseNode, path: string, unit: string): void {
-  node_at(from, `${path}/EngineeringUnits`).setValueFromSource({ dataType: DataType.ExtensionObject, value: unit_of(unit) });
 }

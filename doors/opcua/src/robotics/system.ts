@@ -7,7 +7,7 @@ import { DataType, Variant, type UAObject } from "node-opcua";
 import type { BoardTree } from "../space/tree";
 import type { Derive } from "../space/variable";
 import { Branch, type Shared } from "./branch";
-import { node_at, set_name, set_number, set_text, set_unit } from "./model";
+import { node_at, set_name, set_number, set_text, set_unit } from "../space/set";
 import type { Axis, Robot } from "./robot";
 
 const MAKER = "InduRoP";
