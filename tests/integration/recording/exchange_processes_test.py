@@ -121,7 +121,8 @@ def exchange_at_random(cell, choice):
                 assert client.poll() is None, client.stderr.read()
             time.sleep(choice.uniform(0, 0.2))
             if what == "back":
-                assert cell.indurop("reload", "press", "--back", "--node", cell.name).returncode == 0
+                done = cell.indurop("reload", "press", "--back", "--node", cell.name)
+                assert done.returncode == 0, (done.stdout, done.stderr)
             else:
                 os.kill(cell.pid(), signal.SIGKILL)
             assert client.wait() == 5, (what, client.returncode, client.stderr.read())
