@@ -29,7 +29,7 @@ std::string command_words(const CommandText& command) {
 }
 
 // Puts text in single quotes of a shell.
-std::string quoted(const std::string& text) {
+std::string quote(const std::string& text) {
   return "'" + replaced(text, "'", "'\\''") + "'";
 }
 
@@ -117,12 +117,12 @@ std::string zsh_text(const std::string& text) {
 std::string zsh_specification(const OptionText& option) {
   const std::string value = option.value.empty() ? "" : ":" + zsh_text(option.value) + ":" + zsh_action(option);
   if (option.positional) {
-    return quoted((option.repeated ? "*:" : ":") + zsh_text(option.value) + ":" + zsh_action(option));
+    return quote((option.repeated ? "*:" : ":") + zsh_text(option.value) + ":" + zsh_action(option));
   }
   std::string out;
   for (const std::string& name : {option.short_name, option.long_name}) {
     if (!name.empty()) {
-      out += (out.empty() ? "" : " ") + quoted(name + "[" + zsh_text(option.help) + "]" + value);
+      out += (out.empty() ? "" : " ") + quote(name + "[" + zsh_text(option.help) + "]" + value);
     }
   }
   return out;
@@ -197,11 +197,11 @@ complete -F {1} {0}
 std::string zsh_completion(const CommandText& program) {
   std::string cases;
   each_command(program, "", [&](const std::string& path, const CommandText& command) {
-    cases += fmt::format("    {})\n", quoted(path));
+    cases += fmt::format("    {})\n", quote(path));
     if (!command.commands.empty()) {
       cases += "      local -a verbs=(\n";
       for (const CommandText& each : command.commands) {
-        cases += "        " + quoted(each.name + ":" + zsh_text(each.purpose)) + "\n";
+        cases += "        " + quote(each.name + ":" + zsh_text(each.purpose)) + "\n";
       }
       cases += "      )\n      _describe verb verbs\n";
     }
@@ -215,7 +215,7 @@ std::string zsh_completion(const CommandText& program) {
   });
   std::string paths;
   each_command(program, "", [&](const std::string& path, const CommandText& /*command*/) {
-    paths += path.empty() ? "" : (paths.empty() ? "" : " | ") + quoted(path);
+    paths += path.empty() ? "" : (paths.empty() ? "" : " | ") + quote(path);
   });
   const std::string skip = paths.empty() ? "''" : paths;
   return fmt::format(R"(#compdef {0}
@@ -243,7 +243,7 @@ std::string fish_completion(const CommandText& program) {
                                   ? (command.commands.empty() ? "" : " -n __fish_use_subcommand")
                                   : fmt::format(" -n '__fish_seen_subcommand_from {}'", path.substr(0, path.find(' ')));
     for (const CommandText& each : command.commands) {
-      out += fmt::format("complete -c {}{} -f -a {} -d {}\n", program.name, where, each.name, quoted(each.purpose));
+      out += fmt::format("complete -c {}{} -f -a {} -d {}\n", program.name, where, each.name, quote(each.purpose));
     }
     for (const OptionText& option : command.options) {
       const std::string names =
@@ -251,7 +251,7 @@ std::string fish_completion(const CommandText& program) {
           (option.positional || option.long_name.empty() ? "" : " -l " + option.long_name.substr(2));
       const std::string action = fish_action(option);
       if (!option.positional || !action.empty()) {
-        out += fmt::format("complete -c {}{}{}{} -d {}\n", program.name, where, names, action, quoted(option.help));
+        out += fmt::format("complete -c {}{}{}{} -d {}\n", program.name, where, names, action, quote(option.help));
       }
     }
   });

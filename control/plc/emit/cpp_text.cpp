@@ -220,7 +220,7 @@ std::string cpp_constant(const Constant& value, const Type& type, bool exact) {
     return real(*one, type);
   }
   if (const auto* text = std::get_if<std::string>(&value)) {
-    return fmt::format("{}({})", cpp_type(type), type.is(Elementary::Wstring) ? wide_quoted(*text) : quoted(*text));
+    return fmt::format("{}({})", cpp_type(type), type.is(Elementary::Wstring) ? wide_quoted(*text) : quote(*text));
   }
   const Integer whole = std::get<Integer>(value);
   if (type.kind == Type::Kind::Enum) {
@@ -247,7 +247,7 @@ std::string cpp_initial(const Type& type, const ast::Initial* initial) {
   return of_tree(type, initial_value(type, initial), 0);
 }
 
-std::string quoted(std::string_view text) {
+std::string quote(std::string_view text) {
   return '"' + glb2idl::escape(text) + '"';
 }
 
@@ -280,7 +280,7 @@ std::string cpp_place(const Place& place, std::string_view pou) {
   if (place.within) {
     text += (text.empty() ? "" : ": ") + *place.within;
   }
-  return fmt::format("{{{}, {}}}", quoted(text), quoted(pou));
+  return fmt::format("{{{}, {}}}", quote(text), quote(pou));
 }
 
 std::string wrapped(const std::string& expression) {

@@ -25,8 +25,8 @@ namespace indurop::plc {
 // Returns the initial value of a variable of the type; "{}" for zero.
 [[nodiscard]] std::string cpp_initial(const Type& type, const ast::Initial* initial);
 // "text with escapes" as a literal.
-[[nodiscard]] std::string quoted(std::string_view text);
-// As quoted(), for a WSTRING: u"text".
+[[nodiscard]] std::string quote(std::string_view text);
+// As quote(), for a WSTRING: u"text".
 [[nodiscard]] std::string wide_quoted(std::string_view utf8);
 // Returns the text as a valid one-line comment after "//", without a line continuation.
 [[nodiscard]] std::string comment_text(std::string_view text);

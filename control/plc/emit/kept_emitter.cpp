@@ -154,18 +154,18 @@ class KeptEmitter {
       out_.line("    " + item);
     }
     out_.line("};");
-    out_.line(fmt::format("iec::declare_kept(items, {}, to);", missing_.empty() ? "nullptr" : quoted(missing_)));
+    out_.line(fmt::format("iec::declare_kept(items, {}, to);", missing_.empty() ? "nullptr" : quote(missing_)));
     out_.close();
     out_.line();
     if (!missing_.empty()) {  // for tools that inspect a module file
       out_.raw("asm(R\"indurop(.pushsection .indurop.undeclarable,\"\",%progbits\n");
-      out_.raw(fmt::format(".ascii {}\n.popsection)indurop\");\n", quoted(missing_)));
+      out_.raw(fmt::format(".ascii {}\n.popsection)indurop\");\n", quote(missing_)));
     }
   }
 
  private:
   void add(const std::string& name, const std::string& type, const std::string& cpp) {
-    items_.push_back(fmt::format("iec::kept({}, {}, {}),", quoted(name), quoted(type), cpp));
+    items_.push_back(fmt::format("iec::kept({}, {}, {}),", quote(name), quote(type), cpp));
   }
 
   void address(const std::string& name, const Type& type, const std::string& cpp) {
@@ -175,8 +175,8 @@ class KeptEmitter {
 
   // What is in several parts, or not kept, can be led to as a whole.
   void place(const std::string& name, const std::string& cpp, const Type& type) {
-    places_.push_back(fmt::format("iec::kept_place({}, {}, {}),", quoted(name),
-                                  quoted(std::string(kStatePlace) + type_text(type)), cpp));
+    places_.push_back(fmt::format("iec::kept_place({}, {}, {}),", quote(name),
+                                  quote(std::string(kStatePlace) + type_text(type)), cpp));
   }
 
   void miss(const std::string& name, const std::string& why) {

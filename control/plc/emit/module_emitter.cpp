@@ -225,7 +225,7 @@ class ModuleEmitter {
       }
     }
     table.mark = abi::fnv1a64(text.data(), text.size());
-    out_.line(fmt::format("iec::Debugger plc::debugger{{{}, {}U}};", quoted(options_.name), table.mark));
+    out_.line(fmt::format("iec::Debugger plc::debugger{{{}, {}U}};", quote(options_.name), table.mark));
     out_.line();
   }
 
@@ -238,12 +238,12 @@ class ModuleEmitter {
     out_.line("constexpr char coverage_text[] =");
     for (std::size_t from = 0; from < text.size();) {
       const std::size_t end = text.find('\n', from) + 1;
-      out_.line("    " + quoted(text.substr(from, end - from)));
+      out_.line("    " + quote(text.substr(from, end - from)));
       from = end;
     }
     out_.line(
         fmt::format("    \"\";\niec::Coverage plc_coverage{{{}, {}, {{coverage_text, sizeof coverage_text - 1}}}};",
-                    quoted(options_.name), table.counters));
+                    quote(options_.name), table.counters));
     out_.line();
   }
 
@@ -355,7 +355,7 @@ class ModuleEmitter {
     }
     emit_kept(task_, use_, globals_, own_, out_);
     out_.line(fmt::format("INDUROP_MODULE(run = &::run, {}name = {})",
-                          task_.periodic ? "" : "condition = &::condition, ", quoted(options_.name)));
+                          task_.periodic ? "" : "condition = &::condition, ", quote(options_.name)));
   }
 
   void condition() {

@@ -98,7 +98,7 @@ void read_variable(const Node& node, ast::Variable variable, const std::string& 
   into.push_back(std::move(variable));
 }
 
-std::string quoted(std::string_view text) {
+std::string quote(std::string_view text) {
   std::string out = "'";
   for (const char c : text) {
     out += c == '\'' ? "$'" : std::string(1, c);
@@ -159,7 +159,7 @@ void quote_texts(Node& node, const std::set<std::string>& text_types) {
     for (Node& value : child.children) {
       for (Attribute& attribute : value.attributes) {
         if (attribute.name == "value" && !attribute.value.empty() && attribute.value.front() != '\'') {
-          attribute.value = quoted(attribute.value);
+          attribute.value = quote(attribute.value);
         }
       }
     }

@@ -62,7 +62,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
 }
 
-std::string quoted(const std::string& text) {
+std::string quote(const std::string& text) {
   return "'" + text + "'";
 }
 
@@ -75,7 +75,7 @@ void take_number(const PropertyText& property, const Number& number, Settings& s
   if (const auto value = base::number_in(text)) {
     settings.*number.member = *value;
   } else {
-    wrong.push_back({number.name, quoted(text) + " is no number, write one such as 0.25"});
+    wrong.push_back({number.name, quote(text) + " is no number, write one such as 0.25"});
   }
 }
 
@@ -85,7 +85,7 @@ void take_list(const PropertyText& property, const List& list, Settings& setting
   for (std::string word; words >> word;) {
     const auto value = base::number_in(word);
     if (!value) {
-      wrong.push_back({list.name, quoted(word) + " is no number, write numbers with spaces between them"});
+      wrong.push_back({list.name, quote(word) + " is no number, write numbers with spaces between them"});
       return;
     }
     values.push_back(*value);
@@ -111,7 +111,7 @@ std::vector<WrongSetting> take_properties(const PropertyText& given, Settings& s
     const auto value = base::flag_in(text);
     settings.*flag.member = value.value_or(settings.*flag.member);
     if (!value && !text.empty()) {
-      wrong.push_back({flag.name, quoted(text) + " is neither true nor false"});
+      wrong.push_back({flag.name, quote(text) + " is neither true nor false"});
     }
   }
   for (const List& list : kLists) {
