@@ -209,6 +209,8 @@ class Story:
         with subprocess.Popen([*WITH_US, "nbdfuse", folder / "fuse", f"nbd+unix:///?socket={folder}/socket"],
                               stderr=subprocess.DEVNULL) as fuse:
             while not (folder / "fuse/nbd").exists():
+                if fuse.poll() is not None:
+                    raise RuntimeError("nbdfuse has ended")
                 time.sleep(0.05)
             machine = Machine(self.options, folder / "fuse/nbd", folder / "work", "--live", "--release", str(self.options.release),
                               "--first", str(number * 1000))
@@ -273,6 +275,22 @@ class Story:
         shutil.rmtree(work)
 
 
+def lacking():
+    """What a machine lacks for this test; empty: nothing."""
+    tools = [tool for tool in ("nbdfuse", "mke2fs", "losetup", "unshare", "setpriv") if not shutil.which(tool)]
+    if tools:
+        return f"{', '.join(tools)} not found; make target-proof installs what is missing"
+    if os.geteuid() != 0:
+        return "needs root"
+    with tempfile.TemporaryDirectory() as folder:
+        disk = pathlib.Path(folder, "disk")
+        disk.write_bytes(bytes(1 << 20))
+        subprocess.run(["mke2fs", "-q", "-F", disk], check=True)
+        mount = ["unshare", "--mount", "--net", "--ipc", "--pid", "--fork", "mount", "-o", "loop", disk, folder]
+        tried = subprocess.run(mount, stderr=subprocess.DEVNULL, check=False).returncode == 0
+    return "" if tried and os.access("/dev/fuse", os.R_OK | os.W_OK) else "needs loop devices, FUSE and namespaces"
+
+
 def prove(options, folder):
     story = Story(options, folder)
     began = time.monotonic()
@@ -303,9 +321,9 @@ def main():
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--keep", type=pathlib.Path, help="a folder for disks after which something was wrong")
     options = parser.parse_args()
-    lacking = [tool for tool in ("nbdfuse", "mke2fs", "losetup", "unshare") if not shutil.which(tool)]
-    if lacking or os.geteuid() != 0:
-        print(f"skipped: {', '.join(lacking)} not found; make target-proof installs what is missing" if lacking else "skipped: needs root")
+    why = lacking()
+    if why:
+        print(f"skipped: {why}")
         sys.exit(SKIPPED)
     with tempfile.TemporaryDirectory(prefix="indurop-cuts-") as folder:
         sys.exit(0 if prove(options, pathlib.Path(folder)) else 1)
