@@ -82,6 +82,11 @@ class Cell:
         return self.indurop("replay", file, "--node", f"{self.name}-r", *words)
 
 
+def returned_late(code, errors):
+    """The health window saw an overrun and the previous version runs again. A machine that stands still for a period causes it."""
+    return code == 5 and "the new one overran its period" in errors
+
+
 def numbers_of(file, topic, form):
     """(log time, value) of all messages of a topic, by time."""
     found = [(log, struct.unpack_from(form, data, 4)[0]) for chunk in file.chunks
