@@ -18,7 +18,8 @@ struct LinkBody {
   std::vector<Solid> solids;
 };
 
-// A zone that the arm must stay out of (base frame), or a solid of a tool (frame of the arm's end).
+// A zone that the arm must stay out of (the base's frame with all joints at zero, in which it stands still), or a solid
+// of a tool (frame of the arm's end).
 struct NamedSolid {
   std::string name;
   Solid solid;

@@ -71,7 +71,7 @@ Clearance::Clearance(const Arm& arm, const Bodies& bodies) : arm_(arm), margin_(
   }
   first_zone_ = parts_.size();
   for (const NamedSolid& zone : bodies.zones) {
-    add("zone '" + zone.name + "'", {0, 0, 0, zone.solid});
+    add("zone '" + zone.name + "'", {0, arm.world_joint(), 0, zone.solid});
   }
   connect(bodies.ignored);
 }
@@ -85,7 +85,8 @@ void Clearance::add(const std::string& name, const Part& part) {
   }
 }
 
-// Bodies that are joined by one joint or by none are left out: they touch by design.
+// Bodies that are joined by one joint or by none are left out: they touch by design. What stands still in the world is
+// the base of the arm and of what turns the workpiece: these are left out only if they touch with all joints at zero.
 void Clearance::connect(const std::vector<std::pair<std::string, std::string>>& ignored) {
   std::vector<Solid> solids;
   std::transform(parts_.begin(), parts_.end(), std::back_inserter(solids), [](const Part& part) { return part.solid; });
@@ -99,7 +100,9 @@ void Clearance::connect(const std::vector<std::pair<std::string, std::string>>& 
       const int a = static_cast<int>(i);
       const int b = static_cast<int>(k);
       const bool zone = is_zone(b);
-      const bool apart = zone ? !is_zone(a) && one.joint > 0 : std::abs(one.joint - other.joint) > 1;
+      const bool next_to_world = std::max(one.joint, other.joint) == arm_.world_joint();
+      const int joined = next_to_world ? 0 : 1;
+      const bool apart = zone ? !is_zone(a) && one.joint != other.joint : std::abs(one.joint - other.joint) > joined;
       if (!apart || (one.tool > 0 && other.tool > 0 && one.tool != other.tool)) {
         continue;
       }

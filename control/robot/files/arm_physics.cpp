@@ -85,7 +85,7 @@ std::unique_ptr<ArmPhysics> ArmPhysics::load(const std::string& urdf, std::vecto
     errors.push_back(urdf + ": error: the links have no masses; give them <inertial>");
     return nullptr;
   }
-  return std::make_unique<Physics>(model->arm.count(), model->dynamics);
+  return std::make_unique<Physics>(model->arm.in_world().count(), model->dynamics);
 }
 
 }  // namespace indurop::robot

@@ -172,7 +172,8 @@ Diagnostics check_clear(const JobBook& book, const Arm& arm, const Clearance& cl
       if (!target.is_pose) {
         what = touched(clearance, way, target.joints, tool);
         possible = what.empty();
-      } else if (tools.inverse(tool).closed_form() && target.held == 0) {
+      } else if (tools.inverse(tool).closed_form() && target.held == 0 &&
+                 !tools.inverse(tool).leaves_workpiece_open(0)) {
         const Solutions all = tools.inverse(tool).all(target.pose, target.joints);
         for (int i = 0; i < all.count && !possible; ++i) {
           what = touched(clearance, way, all.list[static_cast<std::size_t>(i)].q, tool);

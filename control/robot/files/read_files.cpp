@@ -12,6 +12,7 @@
 
 #include "control/robot/files/check_calls.h"
 #include "control/robot/files/check_splines.h"
+#include "control/robot/files/check_workpiece.h"
 #include "control/robot/files/read_bodies.h"
 #include "control/robot/kinematics/abilities.h"
 #include "control/robot/kinematics/tool_set.h"
@@ -207,6 +208,7 @@ Diagnostics solve_points(JobBook& book, const Arm& arm, bool placed) {
     if (!target.is_pose || !is_known(point, book, placed)) {
       continue;
     }
+    const bool open = tools.inverse(0).leaves_workpiece_open(target.held);
     const bool closed = tools.inverse(0).closed_form() && target.held == 0;
     Search how;
     how.held = target.held;
@@ -214,12 +216,12 @@ Diagnostics solve_points(JobBook& book, const Arm& arm, bool placed) {
     bool possible = false;
     for (int i = 0; i < tools.count(); ++i) {
       const Inverse& inverse = tools.inverse(i);
-      const auto found = std::make_shared<const Solutions>(closed ? inverse.all(target.pose, target.joints)
-                                                                  : inverse.search(target.pose, target.joints, how));
+      const auto found = std::make_shared<const Solutions>(
+          closed && !open ? inverse.all(target.pose, target.joints) : inverse.search(target.pose, target.joints, how));
       const std::string text = wrong_pose(tools.arm(i), inverse, target, *found);
       wrong = i == 0 ? text : wrong;
       possible = possible || text.empty();
-      if (!closed) {
+      if (!closed && !open) {  // where the workpiece stands is known only when the job runs
         book.known.push_back(found);
         point.known.push_back(found.get());
       }
@@ -343,6 +345,7 @@ ReadFiles read_files(const FileNames& names) {
     take_over(check_points(read.book, read.model->arm), read.errors);
     sort_out(solve_points(read.book, read.model->arm, placed), read);
     take_over(check_axes_of_motions(read.book, read.model->arm), read.errors);
+    take_over(check_workpiece(read.book, read.model->arm, names.workspace), read.errors);
     sort_out(check_calls(read.book), read);
     sort_out(check_loads(read.book, read.model->dynamics), read);
     sort_out(check_speeds(read.book, names.tool_speed), read);

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <utility>
 
-#include "control/robot/files/urdf_bodies.h"
+#include "control/robot/files/urdf_reader.h"
 #include "control/robot/files/urdf_shapes.h"
 #include "control/robot/files/urdf_text.h"
 
@@ -34,56 +34,13 @@ class Listener : public console_bridge::OutputHandler {
   std::string said;
 };
 
-class Reader {
- public:
-  Reader(const std::string& file, const std::string& text) : file_(file), text_(text) {}
-
-  Result<ArmModel, std::vector<base::Diagnostic>> read();
-
- private:
-  void error(std::size_t offset, const std::string& text) { errors_.push_back(wrong_urdf(file_, text_, offset, text)); }
-  [[nodiscard]] std::size_t place_of(const std::string& joint) const { return place_in_urdf(text_, "joint", joint); }
-  [[nodiscard]] static std::vector<urdf::JointConstSharedPtr> chain_to(const urdf::LinkConstSharedPtr& tip);
-  [[nodiscard]] static urdf::LinkConstSharedPtr tip_of(const urdf::ModelInterface& model);
-  void limits_of(const urdf::Joint& joint, Axis& axis, double& velocity);
-  Result<ArmModel, std::vector<base::Diagnostic>> read_delta(const urdf::ModelInterface& model);
-  [[nodiscard]] std::string attribute(std::size_t at, const std::string& name) const;
-  void take_chain(const std::vector<urdf::JointConstSharedPtr>& chain);
-  void follow(const urdf::JointMimic& mimic, const Link& link);
-  void take_axis(const urdf::Joint& joint, const Link& link);
-  void connect();
-  [[nodiscard]] Dynamics masses();
-  [[nodiscard]] std::vector<LinkBody> shapes();
-  void note(const std::string& text);
-
-  const std::string& file_;
-  const std::string& text_;
-  urdf::ModelInterfaceSharedPtr model_;
-  std::vector<base::Diagnostic> errors_;
-  std::vector<base::Diagnostic> notes_;
-  Arm::Axes axes_;
-  Joints velocity_ = Joints::Ones();
-  Pose frame_;  // after the joint that was read last
-  int count_ = 0;
-  std::vector<Link> links_;
-  std::vector<urdf::JointConstSharedPtr> driven_by_;  // the joint that drives a linkage joint; else null
-  std::vector<urdf::JointConstSharedPtr> joints_;     // of `links_`
-  std::vector<ChainLink> chain_;
-};
-
-bool slides(const urdf::Joint& joint) noexcept {
-  return joint.type == urdf::Joint::PRISMATIC;
-}
-
-bool moves(const urdf::Joint& joint) noexcept {
-  return joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS || slides(joint);
-}
-
 Pose after(const Pose& first, const Pose& second) noexcept {
   return {first.position + first.orientation * second.position, first.orientation * second.orientation};
 }
 
-std::vector<urdf::JointConstSharedPtr> Reader::chain_to(const urdf::LinkConstSharedPtr& tip) {
+}  // namespace
+
+std::vector<urdf::JointConstSharedPtr> UrdfReader::chain_to(const urdf::LinkConstSharedPtr& tip) {
   std::vector<urdf::JointConstSharedPtr> chain;
   for (auto link = tip; link != nullptr && link->parent_joint != nullptr; link = link->getParent()) {
     chain.push_back(link->parent_joint);
@@ -93,7 +50,7 @@ std::vector<urdf::JointConstSharedPtr> Reader::chain_to(const urdf::LinkConstSha
 }
 
 // The named tool, else the link with the most moving joints before it, and of these the one farthest from the root.
-urdf::LinkConstSharedPtr Reader::tip_of(const urdf::ModelInterface& model) {
+urdf::LinkConstSharedPtr UrdfReader::tip_of(const urdf::ModelInterface& model) {
   for (const char* name : {"tool0", "tcp"}) {
     if (auto link = model.getLink(name)) {
       return link;
@@ -103,7 +60,7 @@ urdf::LinkConstSharedPtr Reader::tip_of(const urdf::ModelInterface& model) {
   std::pair<std::ptrdiff_t, std::size_t> most{0, 0};
   for (const auto& [name, link] : model.links_) {
     const auto chain = chain_to(link);
-    const auto moving = std::count_if(chain.begin(), chain.end(), [](const auto& j) { return moves(*j); });
+    const auto moving = std::count_if(chain.begin(), chain.end(), [](const auto& j) { return is_axis(*j); });
     if (std::pair(moving, chain.size()) > most) {
       most = {moving, chain.size()};
       best = link;
@@ -112,7 +69,7 @@ urdf::LinkConstSharedPtr Reader::tip_of(const urdf::ModelInterface& model) {
   return best;
 }
 
-void Reader::limits_of(const urdf::Joint& joint, Axis& axis, double& velocity) {
+void UrdfReader::limits_of(const urdf::Joint& joint, Axis& axis, double& velocity) {
   axis.endless = joint.type == urdf::Joint::CONTINUOUS;
   axis.kind = slides(joint) ? AxisKind::Sliding : AxisKind::Turning;
   if (joint.limits == nullptr || !(joint.limits->velocity > 0)) {
@@ -128,7 +85,7 @@ void Reader::limits_of(const urdf::Joint& joint, Axis& axis, double& velocity) {
   }
 }
 
-Result<ArmModel, std::vector<base::Diagnostic>> Reader::read() {
+Result<ArmModel, std::vector<base::Diagnostic>> UrdfReader::read() {
   std::string said;
   urdf::ModelInterfaceSharedPtr model;
   {
@@ -152,11 +109,14 @@ Result<ArmModel, std::vector<base::Diagnostic>> Reader::read() {
   }
   connect();
   Dynamics dynamics = masses();
+  if (errors_.empty()) {
+    begin_at_workpiece();
+  }
   std::vector<LinkBody> bodies = shapes();
   if (!errors_.empty()) {
     return std::move(errors_);
   }
-  ArmModel read{Arm(std::move(axes_), frame_, count_, links_.data(), links_.size()), velocity_, dynamics,
+  ArmModel read{Arm(std::move(axes_), frame_, count_, links_.data(), links_.size(), world_joint_), velocity_, dynamics,
                 std::move(bodies)};
   for (const auto& [name, link] : model->links_) {
     read.links.push_back(name);
@@ -165,7 +125,7 @@ Result<ArmModel, std::vector<base::Diagnostic>> Reader::read() {
   return read;
 }
 
-std::vector<LinkBody> Reader::shapes() {
+std::vector<LinkBody> UrdfReader::shapes() {
   std::vector<base::Diagnostic> found;
   std::vector<LinkBody> bodies = shapes_of(*model_, chain_, file_, text_, found);
   for (base::Diagnostic& one : found) {
@@ -174,12 +134,12 @@ std::vector<LinkBody> Reader::shapes() {
   return bodies;
 }
 
-void Reader::note(const std::string& text) {
+void UrdfReader::note(const std::string& text) {
   notes_.push_back({base::Diagnostic::Severity::Note, file_, {1, 1}, text});
 }
 
 // Unless all masses are given, torques are unknown.
-Dynamics Reader::masses() {
+Dynamics UrdfReader::masses() {
   UrdfBodies found = bodies_of(chain_, links_.size(), file_, text_);
   std::move(found.errors.begin(), found.errors.end(), std::back_inserter(errors_));
   if (!errors_.empty()) {
@@ -222,7 +182,7 @@ Dynamics Reader::masses() {
 
 // Reads what URDF cannot express, since its chains have no loops: <delta arms="a1 a2 a3" turn="a4" base="0.2"
 // upper="0.24" lower="0.8" platform="0.05" tool="0.03"/>, and the limits of the joints that it names.
-Result<ArmModel, std::vector<base::Diagnostic>> Reader::read_delta(const urdf::ModelInterface& model) {
+Result<ArmModel, std::vector<base::Diagnostic>> UrdfReader::read_delta(const urdf::ModelInterface& model) {
   const std::size_t at = text_.find("<delta");
   Delta delta;
   for (const auto& [name, value] : {std::pair("base", &delta.base), std::pair("upper", &delta.upper),
@@ -236,7 +196,7 @@ Result<ArmModel, std::vector<base::Diagnostic>> Reader::read_delta(const urdf::M
   std::istringstream names(attribute(at, "arms") + " " + attribute(at, "turn"));
   for (std::string name; names >> name; ++count_) {
     const auto joint = model.getJoint(name);
-    if (joint == nullptr || !moves(*joint) || slides(*joint)) {
+    if (joint == nullptr || !is_axis(*joint) || slides(*joint)) {
       error(at, "<delta> names the joint '" + name + "', which does not turn or is not there");
     } else if (count_ < 4) {
       take_axis(*joint, {Vec3::UnitZ(), Vec3::Zero(), AxisKind::Turning, count_, 1});
@@ -256,7 +216,7 @@ Result<ArmModel, std::vector<base::Diagnostic>> Reader::read_delta(const urdf::M
 }
 
 // Returns an attribute of the element at `at`; empty if there is none of that name.
-std::string Reader::attribute(std::size_t at, const std::string& name) const {
+std::string UrdfReader::attribute(std::size_t at, const std::string& name) const {
   const std::string element = text_.substr(at, text_.find('>', at) - at);
   for (const char quote : {'"', '\''}) {
     const std::size_t begin = element.find(" " + name + "=" + quote);
@@ -268,14 +228,14 @@ std::string Reader::attribute(std::size_t at, const std::string& name) const {
   return "";
 }
 
-void Reader::take_chain(const std::vector<urdf::JointConstSharedPtr>& chain) {
+void UrdfReader::take_chain(const std::vector<urdf::JointConstSharedPtr>& chain) {
   for (const auto& joint : chain) {
     frame_ = after(frame_, pose_of(joint->parent_to_joint_origin_transform));
     if (joint->type == urdf::Joint::FIXED) {
       chain_.push_back({model_->getLink(joint->child_link_name), frame_, static_cast<int>(links_.size()) - 1});
       continue;
     }
-    if (!moves(*joint)) {
+    if (!is_axis(*joint)) {
       error(place_of(joint->name),
             "joint '" + joint->name + "' has to be revolute, continuous, prismatic or fixed between root and tool");
       continue;
@@ -301,7 +261,7 @@ void Reader::take_chain(const std::vector<urdf::JointConstSharedPtr>& chain) {
 }
 
 // The position of a linkage when all axes are at zero.
-void Reader::follow(const urdf::JointMimic& mimic, const Link& link) {
+void UrdfReader::follow(const urdf::JointMimic& mimic, const Link& link) {
   const Vec3 local = frame_.orientation.conjugate() * link.direction;
   if (link.kind == AxisKind::Sliding) {
     frame_.position += mimic.offset * link.direction;
@@ -310,7 +270,7 @@ void Reader::follow(const urdf::JointMimic& mimic, const Link& link) {
   }
 }
 
-void Reader::take_axis(const urdf::Joint& joint, const Link& link) {
+void UrdfReader::take_axis(const urdf::Joint& joint, const Link& link) {
   Axis& axis = axes_[static_cast<std::size_t>(link.axis)];
   axis.name = joint.name;
   axis.direction = link.direction;
@@ -319,7 +279,7 @@ void Reader::take_axis(const urdf::Joint& joint, const Link& link) {
 }
 
 // Connects joints of linkages with the axis that moves them.
-void Reader::connect() {
+void UrdfReader::connect() {
   if (links_.size() > Arm::kMostLinks) {
     error(0, "the chain has more than " + std::to_string(Arm::kMostLinks) + " moving joints");
   }
@@ -338,10 +298,8 @@ void Reader::connect() {
   }
 }
 
-}  // namespace
-
 Result<ArmModel, std::vector<base::Diagnostic>> arm_from_urdf(const std::string& file, const std::string& text) {
-  return Reader(file, text).read();
+  return UrdfReader(file, text).read();
 }
 
 }  // namespace indurop::robot

@@ -111,6 +111,11 @@ ErrorCode ConveyorTracking::track(const Command& command, bool turns) noexcept {
 }
 
 ErrorCode ConveyorTracking::track(const Tracking::Carrier& carrier) noexcept {
+  if (robot_.parts.arm.world_joint() > 0) {
+    robot_.job.set_message(
+        "belts and tables cannot be tracked while axes move the workpiece (<workpiece> of the URDF)");
+    return ErrorCode::Belt;
+  }
   const BeltEstimator& belt = belts_[at(carrier.belt)];
   if (!belt.known()) {
     FaultText why;

@@ -57,6 +57,10 @@ class JobMotions final : public MotionPort {
   bool step_aside() noexcept override { return shelf_.step_aside(); }
   [[nodiscard]] const Joints* left_at() const noexcept override { return shelf_.left_at(); }
   [[nodiscard]] Pose tip_at(const Joints& q) const noexcept override { return robot_.tip(q); }
+  [[nodiscard]] Pose world_at(const Joints& q) const noexcept override {
+    const ChainFrame world = robot_.parts.arm.world(q);
+    return {world.shift, Quat(world.turn)};
+  }
   bool come_back(Fault& fault) noexcept override { return shelf_.come_back(fault); }
   [[nodiscard]] bool is_back() const noexcept override { return resuming_.way_back() == Resuming::Return::None; }
 

@@ -69,6 +69,9 @@ bool JobPlaces::leaf(const PlacePart& part, FormulaInput& in, Pose& pose) const 
     case PlaceOp::Here:
       pose = in.port->tip_at(in.port->commanded());
       return true;
+    case PlaceOp::World:
+      pose = in.port->world_at(in.port->commanded());
+      return true;
     case PlaceOp::Found:
       pose = found_.pose;
       in.flaw =

@@ -68,6 +68,8 @@ class MotionPort {
   [[nodiscard]] virtual Joints measured() const noexcept { return commanded(); }
   // The tip of the selected tool at these joint values.
   [[nodiscard]] virtual Pose tip_at(const Joints&) const noexcept { return {}; }
+  // The world as seen from the workpiece, if axes move that; else where it is.
+  [[nodiscard]] virtual Pose world_at(const Joints&) const noexcept { return {}; }
   // Begins an interrupt: comes to rest on the path and saves the rest of it. Returns false if it is not done yet.
   virtual bool step_aside() noexcept { return true; }
   // Joint values where the path was left; null if no interrupt is being served.

@@ -252,9 +252,9 @@ bool MotionReader::read_zone(Step& step) {
 // Parses "3 20" of an axis that a pose leaves undetermined.
 bool MotionReader::read_axis(Step& step) {
   step.op = Op::Axis;
-  if (const Move move = draft_.last().move; move != Move::Line && move != Move::Circle) {
+  if (const Move move = draft_.last().move; move == Move::Spline || move == Move::Free) {
     line_.error(line_.before(),
-                "AXIS comes after the points of a MOVL, MOVC or SEARCH; for others, it is part of a POINT");
+                "AXIS comes after the points of a MOVJ, MOVL, MOVC or SEARCH; for others, it is part of a POINT");
     return false;
   }
   double axis = 0;

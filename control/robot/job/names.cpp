@@ -208,7 +208,9 @@ void JobNames::resolve_places() {
     part.index = find(known_.frames, at.name);
     part.is_frame = part.index >= 0;
     part.index = part.is_frame ? part.index : find(known_.points, at.name);
-    if (part.index < 0) {
+    if (part.index < 0 && at.name == kWorld) {
+      part.op = PlaceOp::World;
+    } else if (part.index < 0) {
       std::vector<std::string> known = suggested(book.points);
       const std::vector<std::string> frames = suggested(book.frames);
       known.insert(known.end(), frames.begin(), frames.end());

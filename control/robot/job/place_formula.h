@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "control/robot/job/formula.h"
 
@@ -14,6 +15,7 @@ enum class PlaceOp : std::uint8_t {
   Pose,     // index: the first one of six formulas, mm and degrees
   Named,    // index: point or frame of the book
   Here,     // where the robot is
+  World,    // the world as seen from the workpiece, if axes move that
   Found,    // where UNTIL ended a motion
   Inverse,  // of the last one
   Joined,   // the last one, given in the one before
@@ -25,6 +27,9 @@ struct PlacePart {
   bool is_frame = false;
   int index = -1;
 };
+
+// A point or frame that is declared with this name comes first.
+inline constexpr std::string_view kWorld = "WORLD";
 
 struct PlaceFormula {
   static constexpr int kMaxPlaces = 8;  // on the stack

@@ -11,7 +11,7 @@ namespace indurop::robot {
 namespace {
 
 constexpr const char* kExpected =
-    "expected POSE x, y, z RPY r, p, y, HERE, FOUND, INV(...) or the name of a point or a frame, found ";
+    "expected POSE x, y, z RPY r, p, y, HERE, FOUND, WORLD, INV(...) or the name of a point or a frame, found ";
 constexpr int kMostBrackets = 10;
 
 }  // namespace
@@ -127,6 +127,7 @@ void PlaceFormulaReader::name(Draft& draft) {
     line_.error(token, kExpected + JobLine::shown(token));
     return;
   }
+  draft.reads.robot = draft.reads.robot || token.text == kWorld;
   draft.names.push_back({draft.parts.size(), token});
   draft.push(PlaceOp::Named);
 }

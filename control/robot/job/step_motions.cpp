@@ -60,8 +60,13 @@ StepValues::Flaw StepMotions::shift(const Step& step, Signals& signals, const Mo
   return {};
 }
 
-// The pose of the target stays the same.
-void StepMotions::give_axis(const Step& setting, const MotionPort& port, Target& target) noexcept {
+// The pose of the target stays the same. If a joint motion goes to joint values, the other axes keep theirs.
+void StepMotions::give_axis(const Step& setting, Move move, const MotionPort& port, Target& target) noexcept {
+  target.known = nullptr;  // found for other values of the axis
+  if (!target.is_pose && move == Move::Joint) {
+    target.joints[setting.index] = setting.value;
+    return;
+  }
   if (!target.is_pose) {
     target.pose = port.tip_at(target.joints);
     target.is_pose = true;
@@ -93,7 +98,7 @@ StepValues::Flaw StepMotions::make(const Step& step, const MotionSettings& setti
     }
     own.apply(with);
     if (with.op == Op::Axis) {
-      give_axis(with, port, command.target);
+      give_axis(with, step.move, port, command.target);
     }
   }
   const bool until = extras != nullptr && extras->until >= 0;

@@ -34,7 +34,7 @@ class StepMotions {
   StepValues::Flaw place(const Step& step, int tool, const MotionPort& port, Target& target) const noexcept;
   StepValues::Flaw shift(const Step& step, Signals& signals, const MotionPort& port, Target& target) const noexcept;
 
-  static void give_axis(const Step& setting, const MotionPort& port, Target& target) noexcept;
+  static void give_axis(const Step& setting, Move move, const MotionPort& port, Target& target) noexcept;
 
   const JobBook& book_;
   const JobPlaces& places_;

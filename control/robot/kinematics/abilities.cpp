@@ -58,7 +58,7 @@ std::string shown(Vec3 v) {
 
 std::string poses_of(const Arm& arm) {
   if (arm.count() >= 6) {
-    return "any pose in its reach";
+    return arm.world_joint() > 0 ? "any pose in its reach, in the workpiece's frame" : "any pose in its reach";
   }
   const Freedom all = freedom_of(arm);
   std::string text = rank_of(all.moving) == 3 && all.moves == 3 ? "x y z" : std::to_string(all.moves) + " of x y z";
@@ -82,7 +82,10 @@ std::string left_open(const Arm& arm) {
   const Held held = redundant_axes(arm);
   std::string text;
   for (int i = 0; i < arm.count(); ++i) {
-    if ((held >> static_cast<unsigned>(i) & 1U) != 0) {
+    if (arm.moves_workpiece(i)) {
+      text += "; axis " + std::to_string(i + 1) + " (" + arm.axis(i).name + ") moves the workpiece: AXIS " +
+              std::to_string(i + 1) + " says where it stands";
+    } else if ((held >> static_cast<unsigned>(i) & 1U) != 0) {
       text += "; a pose leaves axis " + std::to_string(i + 1) + " (" + arm.axis(i).name + ") open: AXIS " +
               std::to_string(i + 1) + " says where it stands";
     }

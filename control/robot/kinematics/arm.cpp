@@ -26,8 +26,12 @@ Arm::Arm(Axes axes, const Pose& home, int count) noexcept : axes_(std::move(axes
   }
 }
 
-Arm::Arm(Axes axes, const Pose& home, int count, const Link* links, std::size_t link_count) noexcept
-    : axes_(std::move(axes)), home_(home), count_(count), link_count_(std::min(link_count, kMostLinks)) {
+Arm::Arm(Axes axes, const Pose& home, int count, const Link* links, std::size_t link_count, int world_joint) noexcept
+    : axes_(std::move(axes)),
+      home_(home),
+      count_(count),
+      link_count_(std::min(link_count, kMostLinks)),
+      world_joint_(world_joint) {
   std::copy_n(links, link_count_, links_.begin());
 }
 
@@ -43,6 +47,15 @@ Arm Arm::with_tool(const Pose& tool) const noexcept {
     arm.home_ = home_ * tool;
   }
   arm.end_ = tool.orientation.conjugate() * (end_ - tool.position);
+  return arm;
+}
+
+Arm Arm::in_world() const noexcept {
+  Arm arm = *this;
+  std::copy(links_.begin() + world_joint_, links_.end(), arm.links_.begin());
+  arm.link_count_ = link_count_ - static_cast<std::size_t>(world_joint_);
+  arm.count_ = count_ - world_joint_;
+  arm.world_joint_ = 0;
   return arm;
 }
 
@@ -73,18 +86,28 @@ Pose Arm::forward(const Joints& q) const noexcept {
   return {rotation * home_.position + shift, Quat(rotation) * home_.orientation};
 }
 
+// The frame after a joint.
+ChainFrame Arm::behind(const ChainFrame& before, const Link& link, const Joints& q) noexcept {
+  const double moved = link.ratio * q[link.axis];
+  if (link.kind == AxisKind::Sliding) {
+    return {before.turn, before.shift + before.turn * (moved * link.direction)};
+  }
+  const Mat3 turn = turned(link.direction, moved);
+  return {before.turn * turn, before.shift + before.turn * (link.point - turn * link.point)};
+}
+
+ChainFrame Arm::world(const Joints& q) const noexcept {
+  ChainFrame frame;
+  for (int i = 0; i < world_joint_; ++i) {
+    frame = behind(frame, link(i), q);
+  }
+  return frame;
+}
+
 void Arm::frames(const Joints& q, ChainFrames& frames) const noexcept {
   frames[0] = {};
   for (std::size_t i = 0; i < link_count_; ++i) {
-    const Link& link = links_[i];
-    const ChainFrame& before = frames[i];
-    const double moved = link.ratio * q[link.axis];
-    if (link.kind == AxisKind::Sliding) {
-      frames[i + 1] = {before.turn, before.shift + before.turn * (moved * link.direction)};
-      continue;
-    }
-    const Mat3 turn = turned(link.direction, moved);
-    frames[i + 1] = {before.turn * turn, before.shift + before.turn * (link.point - turn * link.point)};
+    frames[i + 1] = behind(frames[i], links_[i], q);
   }
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Geometry and limits of an arm: the pose of its tool, and how it moves with the axes. Axes are stored as lines in the
 // base's frame with all joints at zero (product of exponentials); every URDF can be converted to this form.
+//
+// If axes turn the workpiece (a positioner), the base is the workpiece: the chain leads from it through these axes to
+// the world, and from there through those of the arm to the tool. So paths of the tool are paths on the workpiece.
 
 #pragma once
 
@@ -65,8 +68,9 @@ class Arm {
 
   // `home` is the tool's pose with all joints at zero.
   Arm(Axes axes, const Pose& home, int count = 6) noexcept;
-  // The chain from base to tool consists of `links`, at most kMostLinks.
-  Arm(Axes axes, const Pose& home, int count, const Link* links, std::size_t link_count) noexcept;
+  // The chain from base to tool consists of `links`, at most kMostLinks. The first `world_joint` of them move the
+  // workpiece.
+  Arm(Axes axes, const Pose& home, int count, const Link* links, std::size_t link_count, int world_joint = 0) noexcept;
 
   // A delta of three arms; with four axes, the fourth turns its tool.
   Arm(Axes axes, const Delta& delta, int count) noexcept;
@@ -80,10 +84,19 @@ class Arm {
   [[nodiscard]] const Pose& home() const noexcept { return home_; }
   // Returns whether the arm is a serial chain of six turning axes.
   [[nodiscard]] bool turns_six() const noexcept;
+  // Returns the number of the frame of the world: 0, the base's, unless axes turn the workpiece.
+  [[nodiscard]] int world_joint() const noexcept { return world_joint_; }
+  // Returns whether this axis moves the workpiece, not the arm. They are the last axes.
+  [[nodiscard]] bool moves_workpiece(int axis) const noexcept { return axis >= count_ - world_joint_; }
+  // Returns the same arm without the axes of the workpiece. Its base's frame stands still where the workpiece is with
+  // these axes at zero.
+  [[nodiscard]] Arm in_world() const noexcept;
   // Real-time safe, like all functions below.
   [[nodiscard]] Pose forward(const Joints& q) const noexcept;
   // Returns the position of the arm's own end when the tool is at this pose.
   [[nodiscard]] Vec3 end_of(const Pose& tool) const noexcept { return tool.position + tool.orientation * end_; }
+  // Returns where the world is as seen from the workpiece: the pose of the base's frame of in_world().
+  [[nodiscard]] ChainFrame world(const Joints& q) const noexcept;
   // Computes the frame after each joint of the chain; the first frame is the base's.
   void frames(const Joints& q, ChainFrames& frames) const noexcept;
   // Returns the number of joints of the chain; 0 for a delta, which has no chain.
@@ -108,11 +121,14 @@ class Arm {
   [[nodiscard]] Joints spread(int number) const noexcept;
 
  private:
+  [[nodiscard]] static ChainFrame behind(const ChainFrame& before, const Link& link, const Joints& q) noexcept;
+
   Axes axes_;
   Pose home_;
   int count_;
   std::array<Link, kMostLinks> links_{};
   std::size_t link_count_ = 0;
+  int world_joint_ = 0;
   std::optional<Delta> delta_;  // instead of links
   Pose tool_;                   // of a delta; a chain has it in `home_`
   Vec3 end_ = Vec3::Zero();     // end of the arm without a tool, in the tool's frame

@@ -4,9 +4,14 @@
 namespace indurop::robot {
 
 Inverse::Inverse(const Arm& arm)
-    : arm_(arm), wrist_(SphericalWrist::of(arm)), postures_(Postures::of(arm)), held_(redundant_axes(arm)) {
+    : arm_(arm),
+      serial_(arm.in_world()),
+      wrist_(SphericalWrist::of(serial_)),
+      postures_(Postures::of(serial_)),
+      held_(redundant_axes(arm)),
+      workpiece_(workpiece_axes(arm)) {
   if (!wrist_) {
-    parallel_ = ParallelAxes::of(arm);
+    parallel_ = ParallelAxes::of(serial_);
   }
 }
 
@@ -37,6 +42,9 @@ Solutions Inverse::all(const Pose& pose, const Joints& near) const noexcept {
 }
 
 Solutions Inverse::solve(const Pose& pose, const Joints& near, Gathered::What what) const noexcept {
+  if (workpiece_ != 0 && closed_form()) {
+    return solve_in_world(pose, near, what);
+  }
   if (wrist_) {
     return wrist_->solve(arm_, pose, near, what);
   }
@@ -51,8 +59,22 @@ Solutions Inverse::solve(const Pose& pose, const Joints& near, Gathered::What wh
   return found;
 }
 
+// The workpiece stands where it does in `near`.
+Solutions Inverse::solve_in_world(const Pose& pose, const Joints& near, Gathered::What what) const noexcept {
+  const ChainFrame world = arm_.world(near);
+  const Mat3 back = world.turn.transpose();
+  const Pose there{back * (pose.position - world.shift), (Quat(back) * pose.orientation).normalized()};
+  Solutions found = wrist_ ? wrist_->solve(serial_, there, near, what) : parallel_->solve(serial_, there, near, what);
+  for (int i = 0; i < found.count; ++i) {
+    Joints& q = found.list[static_cast<std::size_t>(i)].q;
+    q = with_axes(workpiece_, near, q);
+  }
+  return found;
+}
+
 Solutions Inverse::search(const Pose& pose, const Joints& near, const Search& how) const noexcept {
-  return closed_form() ? all(pose, near) : search_numerically(arm_, postures_, pose, near, how);
+  return closed_form() && !leaves_workpiece_open(how.held) ? all(pose, near)
+                                                           : search_numerically(arm_, postures_, pose, near, how);
 }
 
 Inverse::Result Inverse::reach(const Pose& pose, const Joints& near) const noexcept {
@@ -61,15 +83,6 @@ Inverse::Result Inverse::reach(const Pose& pose, const Joints& near) const noexc
   }
   const NumericSolution one = solve_freely(arm_, pose, near);
   return {one.reach, {one.q, postures_ ? postures_->at(arm_, one.q) : std::uint8_t{0}}};
-}
-
-Joints Inverse::held_as(const Joints& from, Joints near) const noexcept {
-  for (int i = 0; i < arm_.count() && held_ != 0; ++i) {
-    if ((held_ >> static_cast<unsigned>(i) & 1U) != 0) {
-      near[i] = from[i];
-    }
-  }
-  return near;
 }
 
 const char* Inverse::kind() const noexcept {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inverse kinematics, from the tool's pose to joint angles: in closed form if the arm has one, else by iteration.
+// Inverse kinematics, from the tool's pose to joint angles: in closed form if the arm has one, else by iteration. Axes
+// of the workpiece keep their values, and so do the redundant ones of an arm.
 
 #pragma once
 
@@ -25,7 +26,8 @@ class Inverse {
   // The same, chosen from solutions that were found earlier.
   [[nodiscard]] Result nearest(const Solutions& known, const Joints& near,
                                std::optional<std::uint8_t> posture) const noexcept;
-  // All solutions in closed form; only the nearest one for an arm without a closed form. Real-time safe.
+  // All solutions in closed form, with the axes of the workpiece as in `near`; only the nearest one for an arm without
+  // a closed form. Real-time safe.
   [[nodiscard]] Solutions all(const Pose& pose, const Joints& near) const noexcept;
   // All solutions of any arm; takes milliseconds if there is no closed form.
   [[nodiscard]] Solutions search(const Pose& pose, const Joints& near, const Search& how = {}) const noexcept;
@@ -34,25 +36,33 @@ class Inverse {
   // its elbow if that is needed, see solve_freely(). Real-time safe.
   [[nodiscard]] Result reach(const Pose& pose, const Joints& near) const noexcept;
 
+  // Returns whether the arm has a closed form while the workpiece stands still.
   [[nodiscard]] bool closed_form() const noexcept { return wrist_ || parallel_; }
   // Returns whether the arm has named postures (different ways to reach the same pose).
   [[nodiscard]] bool has_postures() const noexcept { return postures_.has_value(); }
   // The axes that a pose leaves undetermined.
   [[nodiscard]] Held held() const noexcept { return held_; }
+  // Returns whether axes that move the workpiece are not among these.
+  [[nodiscard]] bool leaves_workpiece_open(Held given) const noexcept { return (workpiece_ & ~given) != 0; }
   // Returns `near` with the axes that a pose leaves undetermined set to their values in `from`: along a line they have
   // these values, whatever the place before was.
-  [[nodiscard]] Joints held_as(const Joints& from, Joints near) const noexcept;
+  [[nodiscard]] Joints held_as(const Joints& from, Joints near) const noexcept {
+    return held_ == 0 ? near : with_axes(held_, from, near);
+  }
   // Text for the user, such as "spherical wrist, inverse kinematics in closed form".
   [[nodiscard]] const char* kind() const noexcept;
 
  private:
   [[nodiscard]] Solutions solve(const Pose& pose, const Joints& near, Gathered::What what) const noexcept;
+  [[nodiscard]] Solutions solve_in_world(const Pose& pose, const Joints& near, Gathered::What what) const noexcept;
 
   const Arm& arm_;
-  std::optional<SphericalWrist> wrist_;
+  Arm serial_;                           // without the axes of the workpiece
+  std::optional<SphericalWrist> wrist_;  // of `serial_`, as all of these
   std::optional<ParallelAxes> parallel_;
   std::optional<Postures> postures_;
   Held held_;
+  Held workpiece_;
 };
 
 }  // namespace indurop::robot

@@ -104,11 +104,11 @@ double descend(const Arm& arm, const Pose& pose, const Descent& how, Joints& q) 
   return error;
 }
 
-// Those of the redundant axes that slide: they are never moved for the sake of limits.
-Held rails(const Arm& arm) noexcept {
+// Those of the redundant axes that slide or move the workpiece: they are never moved for the sake of limits.
+Held unmoved_axes(const Arm& arm) noexcept {
   Held held = redundant_axes(arm);
   for (int i = 0; i < arm.count(); ++i) {
-    held &= arm.axis(i).slides() ? ~0U : ~(1U << static_cast<unsigned>(i));
+    held &= arm.axis(i).slides() || arm.moves_workpiece(i) ? ~0U : ~(1U << static_cast<unsigned>(i));
   }
   return held;
 }
@@ -118,7 +118,7 @@ Joints crowding(const Arm& arm, const Joints& q) noexcept {
   Joints push = Joints::Zero();
   for (int i = 0; i < arm.count(); ++i) {
     const Axis& a = arm.axis(i);
-    if (!a.slides() && !a.endless) {
+    if (!a.slides() && !a.endless && !arm.moves_workpiece(i)) {
       push[i] = std::max(0.0, a.lower + kElbowRoom - q[i]) - std::max(0.0, q[i] - a.upper + kElbowRoom);
     }
   }
@@ -245,16 +245,25 @@ double missed(const Arm& arm, const Pose& pose, const Search& how, Joints& q) no
 
 }  // namespace
 
-Held redundant_axes(const Arm& arm) noexcept {
+Held workpiece_axes(const Arm& arm) noexcept {
   Held held = 0;
-  int more = arm.count() - 6;
-  for (int i = 0; i < arm.count() && more > 0; ++i) {
+  for (int i = 0; i < arm.count(); ++i) {
+    held |= arm.moves_workpiece(i) ? 1U << static_cast<unsigned>(i) : 0U;
+  }
+  return held;
+}
+
+Held redundant_axes(const Arm& arm) noexcept {
+  Held held = workpiece_axes(arm);
+  const int count = arm.count() - arm.world_joint();
+  int more = count - 6;
+  for (int i = 0; i < count && more > 0; ++i) {
     if (arm.axis(i).slides()) {
       held |= 1U << static_cast<unsigned>(i);
       --more;
     }
   }
-  for (int i = 0, turning = 0; i < arm.count() && more > 0; ++i) {
+  for (int i = 0, turning = 0; i < count && more > 0; ++i) {
     turning += arm.axis(i).slides() ? 0 : 1;
     if (!arm.axis(i).slides() && turning >= 3) {
       held |= 1U << static_cast<unsigned>(i);
@@ -262,6 +271,13 @@ Held redundant_axes(const Arm& arm) noexcept {
     }
   }
   return held;
+}
+
+Joints with_axes(Held axes, const Joints& from, Joints near) noexcept {
+  for (int i = 0; i < kAxes; ++i) {
+    near[i] = (axes >> static_cast<unsigned>(i) & 1U) != 0 ? from[i] : near[i];
+  }
+  return near;
 }
 
 NumericSolution solve_numerically(const Arm& arm, const Pose& pose, const Joints& near) noexcept {
@@ -282,7 +298,7 @@ double room_of(const Arm& arm, const Joints& q) noexcept {
   double room = HUGE_VAL;
   for (int i = 0; i < arm.count(); ++i) {
     const Axis& a = arm.axis(i);
-    if (!a.slides() && !a.endless) {
+    if (!a.slides() && !a.endless && !arm.moves_workpiece(i)) {
       room = std::min({room, q[i] - a.lower, a.upper - q[i]});
     }
   }
@@ -291,20 +307,20 @@ double room_of(const Arm& arm, const Joints& q) noexcept {
 
 NumericSolution solve_freely(const Arm& arm, const Pose& pose, const Joints& near) noexcept {
   const NumericSolution held = solve_numerically(arm, pose, near);
-  const Held rail = rails(arm);
-  if (rail == redundant_axes(arm) || (held.reach == Reach::Ok && room_of(arm, held.q) >= kElbowRoom)) {
+  const Held unmoved = unmoved_axes(arm);
+  if (unmoved == redundant_axes(arm) || (held.reach == Reach::Ok && room_of(arm, held.q) >= kElbowRoom)) {
     return held;
   }
   NumericSolution free{Reach::Ok, held.reach == Reach::Ok ? held.q : near};
-  if (held.reach != Reach::Ok && descend(arm, pose, {kSteps, true, rail, true}, free.q) >= kExact * kExact) {
+  if (held.reach != Reach::Ok && descend(arm, pose, {kSteps, true, unmoved, true}, free.q) >= kExact * kExact) {
     // Steps that are cut off at a limit may end there although the pose is reached beyond or around it.
     free.q = near;
-    const bool reached = descend(arm, pose, {kSteps, false, rail}, free.q) < kExact * kExact;
+    const bool reached = descend(arm, pose, {kSteps, false, unmoved}, free.q) < kExact * kExact;
     if (!reached || !turn_back(arm, near, free.q)) {
       return held;
     }
   }
-  leave_limits(arm, pose, rail, free.q);
+  leave_limits(arm, pose, unmoved, free.q);
   return free;
 }
 

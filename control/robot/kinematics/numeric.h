@@ -11,13 +11,17 @@ namespace indurop::robot {
 
 // Set of axes, one bit each.
 using Held = unsigned;
-// The redundant axes of an arm with more than six: those that slide, else the third, whose angle determines where the
-// elbow is.
+// The axes that move the workpiece.
+Held workpiece_axes(const Arm& arm) noexcept;
+// The redundant axes of an arm with more than six: those of the workpiece, those that slide, else the third, whose
+// angle determines where the elbow is.
 Held redundant_axes(const Arm& arm) noexcept;
+// Returns `near` with these axes as in `from`. Real-time safe.
+Joints with_axes(Held axes, const Joints& from, Joints near) noexcept;
 
 // Turning axes stay this far from their limits where the elbow can move, rad.
 inline constexpr double kElbowRoom = 0.1;
-// rad by which the turning axis that is nearest to a limit is away from it; negative beyond the limit.
+// rad by which the turning axis of the arm that is nearest to a limit is away from it; negative beyond the limit.
 double room_of(const Arm& arm, const Joints& q) noexcept;
 
 struct NumericSolution {

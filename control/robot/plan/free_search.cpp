@@ -68,8 +68,12 @@ Joints FreeSearch::anywhere() noexcept {
   Joints q = from_;
   for (int i = 0; i < places_.arm().count(); ++i) {
     const Axis& axis = places_.arm().axis(i);
-    const double low = axis.endless ? from_[i] - kPi : axis.lower;
-    const double high = axis.endless ? from_[i] + kPi : axis.upper;
+    double low = axis.endless ? from_[i] - kPi : axis.lower;
+    double high = axis.endless ? from_[i] + kPi : axis.upper;
+    if (places_.arm().moves_workpiece(i)) {
+      low = from_[i];  // it is turned no farther than the motion says
+      high = goals_.list[0].q[i];
+    }
     q[i] = low + chance() * (high - low);
   }
   return q;

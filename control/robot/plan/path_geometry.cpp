@@ -27,7 +27,7 @@ bool in_range(const MoveCommand& command) noexcept {
 
 // Searches for an arm without a closed form if no solutions are known: next to a point, or for a pose given by a
 // command. An axis that the pose leaves undetermined stays where it is, if that is possible and no axis gets close to a
-// limit.
+// limit. One that moves the workpiece moves only if the target says so.
 Inverse::Result search(const Places& places, const Target& target, const Joints& near, PlanningWork& work) noexcept {
   const Inverse& inverse = places.inverse();
   if (inverse.held() != 0 && target.held == 0) {
@@ -38,12 +38,13 @@ Inverse::Result search(const Places& places, const Target& target, const Joints&
     }
   }
   Search how{32, 96};
-  how.held = target.held != 0 ? target.held : redundant_axes(places.arm());
-  const Joints& from = target.held != 0 ? target.joints : near;
+  const Held workpiece = workpiece_axes(places.arm());
+  how.held = target.held != 0 ? target.held | workpiece : redundant_axes(places.arm());
+  const Joints from = target.held != 0 ? with_axes(workpiece & ~target.held, near, target.joints) : near;
   Solutions found = inverse.search(target.pose, from, how);
   work.add(how.most);
-  if (found.count == 0 && target.held == 0 && how.held != 0) {
-    how.held = 0;
+  if (found.count == 0 && target.held == 0 && how.held != workpiece) {
+    how.held = workpiece;
     found = inverse.search(target.pose, from, how);
     work.add(how.most);
   }
@@ -72,8 +73,9 @@ Fault resolve(const Places& places, const MoveCommand& command, Draft& draft) no
     return {};  // a path that is followed from place to place reaches its end anyway
   }
   const auto found = target.known != nullptr ? inverse.nearest(*target.known, s.from, target.posture)
-                     : inverse.closed_form() ? inverse.nearest(s.end, s.from, target.posture)
-                                             : search(places, target, s.from, draft.work);
+                     : inverse.closed_form()
+                         ? inverse.nearest(s.end, with_axes(target.held, target.joints, s.from), target.posture)
+                         : search(places, target, s.from, draft.work);
   s.to = found.solution.q;
   return {code_of(found.reach)};
 }

@@ -65,6 +65,13 @@ std::vector<const base::Element*> chain_to(const JointsByChild& joints, std::str
   return chain;
 }
 
+std::vector<const base::Element*> axes_to(const JointsByChild& joints, const std::string& link) {
+  auto chain = chain_to(joints, link);
+  chain.erase(std::remove_if(chain.begin(), chain.end(), [](const base::Element* one) { return !is_axis(*one); }),
+              chain.end());
+  return chain;
+}
+
 std::vector<const base::Element*> axes_of(const JointsByChild& joints) {
   std::vector<const base::Element*> best;
   std::optional<std::string> tool;
@@ -72,9 +79,7 @@ std::vector<const base::Element*> axes_of(const JointsByChild& joints) {
     tool = joints.count(name) != 0 ? name : tool;
   }
   for (const auto& [link, joint] : joints) {
-    auto chain = chain_to(joints, link);
-    chain.erase(std::remove_if(chain.begin(), chain.end(), [](const base::Element* one) { return !is_axis(*one); }),
-                chain.end());
+    auto chain = axes_to(joints, link);
     if (tool ? link == *tool : chain.size() > best.size()) {
       best = std::move(chain);
     }
@@ -104,8 +109,13 @@ Result<std::vector<Joint>, std::vector<base::Diagnostic>> read_joints(const std:
       by_child[link_of(element, "child")] = &element;
     }
   }
+  std::vector<const base::Element*> axes = axes_of(by_child);
+  if (const base::Element* const workpiece = child_of(*root, "workpiece"); workpiece != nullptr) {
+    const auto more = axes_to(by_child, attribute_of(*workpiece, "link"));
+    axes.insert(axes.end(), more.begin(), more.end());
+  }
   std::vector<Joint> joints;
-  for (const base::Element* const joint : axes_of(by_child)) {
+  for (const base::Element* const joint : axes) {
     joints.push_back(
         {attribute_of(*joint, "name"), attribute_of(*joint, "type") == "prismatic" ? kMillimetre : kDegree});
     if (joints.back().name.empty()) {

@@ -30,6 +30,7 @@ class ArmPhysics {
   ArmPhysics& operator=(const ArmPhysics&) = delete;
   virtual ~ArmPhysics() = default;
 
+  // Number of axes of the arm. What moves the workpiece has no load.
   [[nodiscard]] virtual std::size_t axis_count() const noexcept = 0;
   // Sets the payload from now on, seen from the arm's end: kg, m, and the inertia of a ball of that radius (m). 0 kg:
   // no payload.

@@ -23,11 +23,12 @@ const AXIS_TYPES = ["revolute", "continuous", "prismatic"];
 interface Robot {
   name: string;
   joints: Joint[];
+  workpiece: string;  // the link that carries it, if axes move that
 }
 
 // Joints of <transmission> have no <child>.
 function read(text: string): Robot {
-  const robot: Robot = { name: "", joints: [] };
+  const robot: Robot = { name: "", joints: [], workpiece: "" };
   let joint: Joint;
   const end = (which: "parent" | "child") => ({ init: (_: string, attributes: Record<string, string>) => { joint[which] = attributes.link ?? ""; } });
   new Xml2Json({
@@ -40,6 +41,7 @@ function read(text: string): Robot {
             parser: { parent: end("parent"), child: end("child"), mimic: { init: () => { joint.mimic = true; } } },
             finish: () => { if (joint.child) robot.joints.push(joint); },
           },
+          workpiece: { init: (_: string, { link = "" }: Record<string, string>) => { robot.workpiece = link; } },
         },
       },
     },
@@ -66,5 +68,6 @@ export function read_urdf(text: string): Urdf | null {
   const tool = TOOLS.find((name) => by_child.has(name));
   const ends = tool ? [tool] : [...by_child.keys()];
   const axes = ends.map((link) => axes_to(by_child, link)).reduce((best, one) => (one.length > best.length ? one : best), []);
+  axes.push(...axes_to(by_child, robot.workpiece));
   return { name: robot.name, axes, is_linkage: robot.joints.some(({ mimic }) => mimic) };
 }

@@ -90,7 +90,7 @@ TEST_P(Acceleration_of, Changes_on_the_way_break_no_limit) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Acceleration_of,
                          testing::Values("delta", "five_axis", "iiwa14", "offset_wrist", "palletiser", "rail", "scara",
-                                         "ur10"),
+                                         "turntable", "ur10"),
                          [](const auto& arm) { return std::string(arm.param); });
 
 TEST(Acceleration, A_joint_motion_takes_as_long_as_its_slowest_axis_with_that_part) {

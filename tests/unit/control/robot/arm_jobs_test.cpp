@@ -127,9 +127,10 @@ TEST(ArmJobs, What_an_arm_cannot_do_is_said_with_the_line) {
   EXPECT_EQ(error_of("iiwa14", b + "MOVL B AXIS 3 200\n"),
             "main.job:2:1: error: AXIS 3 is beyond the limits of this axis in the URDF");
   EXPECT_EQ(error_of("iiwa14", b + "MOVL B AXIS 8 20\n"), "main.job:2:13: error: axes have the numbers 1 to 7");
-  EXPECT_EQ(error_of("iiwa14", b + "MOVJ B AXIS 3 20\n"),
-            "main.job:2:8: error: AXIS comes after the points of a MOVL, MOVC or SEARCH; for others, it is part of a "
-            "POINT");
+  EXPECT_EQ(
+      error_of("iiwa14", b + "MOVE FREE TO B AXIS 3 20\n"),
+      "main.job:2:16: error: AXIS comes after the points of a MOVJ, MOVL, MOVC or SEARCH; for others, it is part of a "
+      "POINT");
 }
 
 }  // namespace

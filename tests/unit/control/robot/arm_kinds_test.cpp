@@ -31,6 +31,8 @@ struct Known {
   const char* file;
   std::vector<Part> parts;
   Frame tool;
+  std::vector<Part> to_workpiece{};  // from the root, as the arm's
+  Frame workpiece{};
 };
 
 Frame at(double x, double y, double z) {
@@ -39,6 +41,7 @@ Frame at(double x, double y, double z) {
 
 const Frame kTurnedOver(Rotation::RotX(kPi));
 
+// Long: a table of arms.
 std::vector<Known> known_arms() {
   return {
       {"scara",
@@ -86,21 +89,47 @@ std::vector<Known> known_arms() {
         {Frame::DH(0, kPi / 2, 0.163941, 0), Joint::RotZ, 5},
         {Frame::DH(0, -kPi / 2, 0.1157, 0), Joint::RotZ, 6}},
        at(0, 0, 0.0922)},
+      {"turntable",
+       {{at(-0.9, 0.1, 0.2) * Frame(Rotation::RotZ(0.3)), Joint::RotZ, 0},
+        {Frame::DH(0, kPi / 2, 0.1273, 0), Joint::RotZ, 1},
+        {Frame::DH(-0.612, 0, 0, 0), Joint::RotZ, 2},
+        {Frame::DH(-0.5723, 0, 0, 0), Joint::RotZ, 3},
+        {Frame::DH(0, kPi / 2, 0.163941, 0), Joint::RotZ, 4},
+        {Frame::DH(0, -kPi / 2, 0.1157, 0), Joint::RotZ, 5}},
+       at(0, 0, 0.0922),
+       {{at(0, 0.05, 0.45), Joint::RotZ, 6}},
+       at(0, 0, 0.02) * Frame(Rotation::RotZ(0.5))},
+      {"tilt_table",
+       {{at(0, 0, 0.4), Joint::RotZ, 0},
+        {at(0.1, 0, 0.05), Joint::RotY, 1},
+        {at(0, 0, 0.6), Joint::RotY, 2},
+        {at(0.2, 0, 0.1), Joint::RotX, 3},
+        {at(0.4, 0, 0), Joint::RotY, 4},
+        {at(0.1, 0, 0), Joint::RotX, 5}},
+       Frame(Rotation::RotY(kPi / 2)),
+       {{at(0.9, 0, 0.5), Joint::RotY, 6}, {at(0, 0, 0.1), Joint::RotZ, 7}},
+       at(0, 0, 0)},
   };
 }
 
-Pose by_kdl(const Known& known, const Joints& q) {
+Frame end_of(const std::vector<Part>& parts, const Frame& end, const Joints& q) {
   KDL::Chain chain;
-  KDL::JntArray joints(static_cast<unsigned>(known.parts.size()));
-  for (unsigned i = 0; i < known.parts.size(); ++i) {
-    const Part& part = known.parts[i];
+  KDL::JntArray joints(static_cast<unsigned>(parts.size()));
+  for (unsigned i = 0; i < parts.size(); ++i) {
+    const Part& part = parts[i];
     chain.addSegment(KDL::Segment(Joint(Joint::Fixed), part.before));
     chain.addSegment(KDL::Segment(Joint(part.kind)));
     joints(i) = part.ratio * q[part.axis];
   }
-  chain.addSegment(KDL::Segment(Joint(Joint::Fixed), known.tool));
+  chain.addSegment(KDL::Segment(Joint(Joint::Fixed), end));
   Frame frame;
   EXPECT_GE(KDL::ChainFkSolverPos_recursive(chain).JntToCart(joints, frame), 0);
+  return frame;
+}
+
+// Seen from the workpiece, if axes move it.
+Pose by_kdl(const Known& known, const Joints& q) {
+  const Frame frame = end_of(known.to_workpiece, known.workpiece, q).Inverse() * end_of(known.parts, known.tool, q);
   Pose pose;
   pose.position = Vec3(frame.p.x(), frame.p.y(), frame.p.z());
   Quat& turn = pose.orientation;
@@ -115,6 +144,23 @@ TEST(ArmKinds, Forward_kinematics_agrees_with_KDL) {
     for (int i = 0; i < 200; ++i) {
       const Joints q = anywhere(sut, random);
       ASSERT_LT(distance(sut.forward(q), by_kdl(known, q)), 1e-9) << known.file << " " << q.transpose();
+    }
+  }
+}
+
+// The world's frame is where the workpiece is with its axes at zero.
+TEST(ArmKinds, In_the_world_the_tool_is_where_KDL_says) {
+  for (const Known& known : known_arms()) {
+    const Arm sut = arm_of(known.file);
+    std::mt19937 random(5);
+    for (int i = 0; i < 100; ++i) {
+      const Joints q = anywhere(sut, random);
+      const Frame frame =
+          end_of(known.to_workpiece, known.workpiece, Joints::Zero()).Inverse() * end_of(known.parts, known.tool, q);
+      const ChainFrame world = sut.world(q);
+      const Vec3 there = world.turn.transpose() * (sut.forward(q).position - world.shift);
+      ASSERT_LT((there - Vec3(frame.p.x(), frame.p.y(), frame.p.z())).norm(), 1e-9) << known.file;
+      ASSERT_LT((sut.in_world().forward(q).position - there).norm(), 1e-9) << known.file;
     }
   }
 }
@@ -251,6 +297,10 @@ TEST(ArmKinds, Say_what_they_can_do) {
   EXPECT_EQ(said("rail"),
             "7 axes, inverse kinematics step by step; poses: any pose in its reach; a pose leaves axis 1 (rail) open: "
             "AXIS 1 says where it stands; no postures");
+  EXPECT_EQ(said("turntable"),
+            "7 axes, three of them parallel, inverse kinematics in closed form; poses: any pose in its reach, in the "
+            "workpiece's frame; axis 7 (turn) moves the workpiece: AXIS 7 says where it stands; postures: shoulder, "
+            "elbow, wrist");
 }
 
 }  // namespace

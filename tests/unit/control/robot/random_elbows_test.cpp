@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random jobs of arms with seven axes, with lines and circles on which the elbow moves, by AXIS or by choice: whatever
-// happens, no set point breaks a limit; and a line takes the same path at any override and behind any stop.
-// INDUROP_ROBOT_ELBOWS says how many jobs of each arm, INDUROP_ROBOT_SEED from which one on.
+// Random jobs of arms with seven axes, with lines and circles on which the elbow moves, by AXIS or by choice, and of
+// arms next to tables that turn the workpiece meanwhile: whatever happens, no set point breaks a limit; and a line
+// takes the same path on the workpiece at any override and behind any stop. INDUROP_ROBOT_ELBOWS says how many jobs of
+// each arm, INDUROP_ROBOT_SEED from which one on.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -18,7 +19,6 @@
 namespace indurop::robot {
 namespace {
 
-constexpr int kElbow = 2;
 constexpr std::uint32_t kFirstMotion = 5;  // line of job_of_lines()
 
 int elbow_setting(const char* name, int otherwise) {
@@ -32,23 +32,32 @@ class Random_elbows : public testing::TestWithParam<const char*> {
 
   double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
   int one_of(int many) { return std::uniform_int_distribution<int>(0, many - 1)(random); }
+  [[nodiscard]] double inside(int axis, double value, double margin) const {
+    const Axis& a = arm.axis(axis);
+    return a.endless ? value : std::clamp(value, a.lower + margin, a.upper - margin);
+  }
   std::string axis() {
-    const Axis& a = arm.axis(kElbow);
-    const double at = std::clamp(elbow + in(-0.8, 0.8), a.lower + 1e-3, a.upper - 1e-3);
-    return one_of(3) == 0 ? "" : fmt::format(" AXIS 3 {:.3f}", degrees(at));
+    std::string text;
+    for (const int free : free_axes) {
+      const double at = inside(free, middle[free] + in(-0.8, 0.8), 1e-3);
+      text += one_of(3) == 0 ? "" : fmt::format(" AXIS {} {:.3f}", free + 1, degrees(at));
+    }
+    return text;
   }
   std::string points(int many, double spread) {
-    const Joints middle = anywhere(arm, random, 0.15);
-    elbow = middle[kElbow];
+    middle = anywhere(arm, random, 0.15);
     std::string text;
     for (int i = 0; i < many; ++i) {
       Joints q = middle;
       for (int k = 0; k < arm.count(); ++k) {
-        q[k] = std::clamp(q[k] + in(-spread, spread), arm.axis(k).lower + 0.01, arm.axis(k).upper - 0.01);
+        q[k] = inside(k, q[k] + in(-spread, spread), 0.01);
       }
       std::string point = random_point(arm, q, i, i == 0);
-      if (i > 0 && one_of(3) == 0) {
-        point.insert(point.size() - 1, fmt::format(" AXIS 3 {}", degrees(q[kElbow])));
+      // What turns the workpiece is not found for a pose.
+      if (i > 0 && (arm.world_joint() > 0 || one_of(3) == 0)) {
+        for (const int free : free_axes) {
+          point.insert(point.size() - 1, fmt::format(" AXIS {} {}", free + 1, degrees(q[free])));
+        }
       }
       text += point;
     }
@@ -152,7 +161,11 @@ class Random_elbows : public testing::TestWithParam<const char*> {
   const std::string urdf;
   std::mt19937 random;
   Arm arm = arm_from_urdf("arm.urdf", urdf).value().arm;
-  double elbow = 0;  // rad, in the middle of the points
+  // The elbow, or what turns the workpiece.
+  const std::vector<int> free_axes = arm.count() == 8        ? std::vector{6, 7}
+                                     : arm.world_joint() > 0 ? std::vector{6}
+                                                             : std::vector{2};
+  Joints middle = Joints::Zero();  // of the points
   std::unique_ptr<Cell> cell;
   std::unique_ptr<Judge> judge;
 };
@@ -198,11 +211,11 @@ class Lines_with_elbows : public Random_elbows {
   struct Line {
     Joints from = Joints::Zero(), to = Joints::Zero();
     bool seen = false;
-    [[nodiscard]] bool moves_elbow() const { return std::abs(to[kElbow] - from[kElbow]) > 1e-6; }
+    [[nodiscard]] bool moves(int axis) const { return std::abs(to[axis] - from[axis]) > 1e-6; }
   };
   std::map<std::uint32_t, Line> lines;  // of job_of_lines(), as they are followed if nothing happens
   double off = 0;                       // m and rad, of the tool
-  double turned = 0;                    // rad, of the elbow
+  double turned = 0;                    // rad, of the free axes
 
   // Calls each() in each period from the first motion to the end.
   template <class Each>
@@ -228,8 +241,8 @@ class Lines_with_elbows : public Random_elbows {
     line.to = joints();
     line.seen = true;
   }
-  // The elbow's place as a linear function of the way of the tool comes from what the documentation says, not from the
-  // planned path.
+  // The free axes' place as a linear function of the way of the tool comes from what the documentation says, not from
+  // the planned path.
   void compare() {
     const Line& line = lines[cell->out.job.line];
     const Pose from = arm.forward(line.from);
@@ -242,7 +255,9 @@ class Lines_with_elbows : public Random_elbows {
     const Pose here = arm.forward(q);
     const double part = (here.position - from.position).dot(way) / way.squaredNorm();
     off = std::max(off, distance(here, {from.position + part * way, from.orientation.slerp(part, to.orientation)}));
-    turned = std::max(turned, std::abs(q[kElbow] - line.from[kElbow] - part * (line.to[kElbow] - line.from[kElbow])));
+    for (const int free : free_axes) {
+      turned = std::max(turned, std::abs(q[free] - line.from[free] - part * (line.to[free] - line.from[free])));
+    }
   }
   void disturb_line() {
     const int what = one_of(60);
@@ -277,16 +292,18 @@ TEST_P(Lines_with_elbows, Are_the_same_at_any_override_and_behind_stops) {
     ASSERT_EQ(std::pair(cell->out.error, cell->out.job.line), std::pair(end, end_line)) << job;
     for (const auto& [number, line] : lines) {
       many += number > kFirstMotion ? 1 : 0;
-      moved += number > kFirstMotion && line.moves_elbow() ? 1 : 0;
+      moved += number > kFirstMotion && line.moves(free_axes[0]) ? 1 : 0;
     }
   }
-  fmt::print("{} lines, the elbow moves on {}; the tool is {:.1e} off, the elbow {:.1e} rad\n", many, moved, off,
+  fmt::print("{} lines, the elbow or table moves on {}; the tool is {:.1e} off, that {:.1e} rad\n", many, moved, off,
              turned);
   EXPECT_GT(moved, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of_seven_axes, Lines_with_elbows, testing::Values("panda", "iiwa14"));
 INSTANTIATE_TEST_SUITE_P(Of_seven_axes, Random_elbows, testing::Values("panda", "iiwa14"));
+INSTANTIATE_TEST_SUITE_P(Of_tables, Lines_with_elbows, testing::Values("turntable", "tilt_table"));
+INSTANTIATE_TEST_SUITE_P(Of_tables, Random_elbows, testing::Values("turntable", "tilt_table"));
 
 }  // namespace
 }  // namespace indurop::robot

@@ -160,7 +160,7 @@ TEST_P(Refusal, Takes_no_more_than_its_work) {
 
 INSTANTIATE_TEST_SUITE_P(Of_all_kinds, Refusal,
                          testing::Values("cell", "ur5", "scara", "offset_wrist", "five_axis", "palletiser", "iiwa14",
-                                         "rail", "irb4600", "scara_spec", "xarm6", "panda"));
+                                         "rail", "tilt_table", "irb4600", "scara_spec", "xarm6", "panda"));
 
 class RefusalOfStretchedArms : public Refusal {};
 

@@ -85,7 +85,10 @@ JointLimits cell_limits() {
 Joints anywhere(const Arm& arm, std::mt19937& random, double margin) {
   Joints q = Joints::Zero();
   for (int i = 0; i < arm.count(); ++i) {
-    q[i] = std::uniform_real_distribution<double>(arm.axis(i).lower + margin, arm.axis(i).upper - margin)(random);
+    const Axis& a = arm.axis(i);
+    const double low = a.endless ? -kPi : a.lower + margin;
+    const double high = a.endless ? kPi : a.upper - margin;
+    q[i] = std::uniform_real_distribution<double>(low, high)(random);
   }
   return q;
 }

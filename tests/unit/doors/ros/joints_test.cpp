@@ -37,6 +37,13 @@ TEST(RosJoints, Without_a_tool_the_longest_chain_counts_and_what_mimics_does_not
               testing::ElementsAre("one", "three"));
 }
 
+TEST(RosJoints, Axes_of_the_workpiece_come_after_those_of_the_arm) {
+  EXPECT_THAT(names_in(joint("tilt", "revolute", "base", "cradle") + joint("one", "revolute", "base", "a") +
+                       joint("two", "revolute", "a", "tool0") + joint("turn", "continuous", "cradle", "plate") +
+                       "<workpiece link='plate'/>"),
+              testing::ElementsAre("one", "two", "tilt", "turn"));
+}
+
 TEST(RosJoints, A_file_without_any_and_one_that_is_broken_are_errors_with_their_place) {
   const auto none = read_joints("arm.urdf", "<robot><link name='base'/></robot>");
   ASSERT_FALSE(none);

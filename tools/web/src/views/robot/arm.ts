@@ -11,6 +11,7 @@ export interface Arm {
   robot: URDFRobot;
   axes: URDFJoint[];
   tool: THREE.Object3D;
+  base: THREE.Object3D;  // poses are in its frame: the link of the workpiece, if axes move that
   size: number;  // m, approximately its reach
 }
 
@@ -26,14 +27,22 @@ function is_axis(joint: URDFJoint): boolean {
   return ["revolute", "continuous", "prismatic"].includes(joint.jointType) && !("mimicJoint" in joint && joint.mimicJoint);
 }
 
-// Joints from the base to the tool, or else to the end of the longest chain.
+function joints_to(link: THREE.Object3D, robot: URDFRobot): URDFJoint[] {
+  const chain: URDFJoint[] = [];
+  for (let at: THREE.Object3D | null = link; at && at !== robot; at = at.parent) if (is_joint(at)) chain.unshift(at);
+  return chain;
+}
+
+// The link named by <workpiece>, whose axes come after those of the arm; else the robot.
+function base_of(urdf: string, robot: URDFRobot): THREE.Object3D {
+  const name = new DOMParser().parseFromString(urdf, "text/xml").querySelector("workpiece")?.getAttribute("link");
+  return (name && robot.links[name]) || robot;
+}
+
+// Joints from the root to the tool, or else to the end of the longest chain.
 function chain_of(robot: URDFRobot): URDFJoint[] {
   const tool = TOOLS.map((name) => robot.links[name]).find(Boolean);
-  const chain: URDFJoint[] = [];
-  if (tool) {
-    for (let at: THREE.Object3D | null = tool.parent; at && at !== robot; at = at.parent) if (is_joint(at)) chain.unshift(at);
-    return chain;
-  }
+  if (tool) return joints_to(tool, robot);
   const longest = (from: THREE.Object3D): URDFJoint[] => joints_below(from)
     .map((joint) => [joint, ...joint.children.flatMap((link) => longest(link))])
     .reduce((best, one) => (one.length > best.length ? one : best), [] as URDFJoint[]);
@@ -92,5 +101,6 @@ export function arm_of(urdf: string, link_material: THREE.Material, hub_material
   const last = chain[chain.length - 1];
   const tool = last?.children.find((child) => (child as URDFLink).isURDFLink) ?? robot;
   tool.add(new THREE.AxesHelper(size * 0.12));
-  return { robot, axes: chain.filter(is_axis), tool, size };
+  const base = base_of(urdf, robot);
+  return { robot, axes: [...chain, ...joints_to(base, robot)].filter(is_axis), tool, base, size };
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arm in 3-D: floor, light, camera, the path of the tool. It is drawn only after a change.
+// The arm in 3-D: floor, light, camera, the path of the tool (on the workpiece, if axes move that). It is drawn only after a change.
 
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -52,6 +52,7 @@ export class Scene {
     if (this.arm) this.scene.remove(this.arm.robot);
     this.arm = arm_of(urdf, this.links, this.hubs);
     this.scene.add(this.arm.robot);
+    this.arm.base.add(this.path);
     this.clear_path();
     this.recolour();
     this.set_view("Corner");
@@ -63,7 +64,7 @@ export class Scene {
     if (!this.arm) return;
     this.arm.axes.forEach((joint, i) => { if (Number.isFinite(values[i])) joint.setJointValue(values[i]); });
     this.arm.robot.updateMatrixWorld(true);
-    const at = this.arm.tool.getWorldPosition(new THREE.Vector3());
+    const at = this.arm.base.worldToLocal(this.arm.tool.getWorldPosition(new THREE.Vector3()));
     const last = this.used > 0 ? new THREE.Vector3().fromArray(this.points, (this.used - 1) * 3) : null;
     this.moved = true;
     if (!last || last.distanceTo(at) > this.arm.size * 5e-4) this.add_point(at);
