@@ -243,12 +243,17 @@ void Engine::watchdog_loop() noexcept {
     // Half a basic period after a tick, where the wake-up delays no tick if they share a core.
     const std::int64_t grid = period >= settings_.basic_period_ns ? settings_.basic_period_ns : period;
     const std::int64_t earliest = rt::to_ns(kernel_.now()) + period - epoch_of(block_);
-    kernel_.sleep_until(rt::mono_time(epoch_of(block_) + (earliest / grid) * grid + grid / 2));
+    const rt::MonoTime planned = rt::mono_time(epoch_of(block_) + (earliest / grid) * grid + grid / 2);
+    kernel_.sleep_until(planned);
     const rt::MonoTime now = kernel_.now();
+    const std::int64_t late_ns = std::max<std::int64_t>(rt::to_ns(now) - rt::to_ns(planned), 0);
+    if (settings_.stalled_ns != nullptr) {
+      settings_.stalled_ns->fetch_add(late_ns, std::memory_order_relaxed);
+    }
     const bool stopping = stop_.load(std::memory_order_acquire);
     for (const auto& watched : watched_) {
       if (const Schedule* schedule = watched.load(std::memory_order_acquire); schedule != nullptr) {
-        schedule->enforce_budgets(now, stopping, settings_.stop_grace_ns);
+        schedule->enforce_budgets(now, stopping, settings_.stop_grace_ns, late_ns);
       }
     }
   }

@@ -96,7 +96,7 @@ void Engine::end_runs_in_progress() noexcept {
   const rt::MonoTime late = kernel_.now() + std::chrono::nanoseconds(settings_.stop_grace_ns);
   for (const auto& watched : watched_) {
     if (const Schedule* schedule = watched.load(std::memory_order_acquire); schedule != nullptr) {
-      schedule->enforce_budgets(late, true, 0);
+      schedule->enforce_budgets(late, true, 0, 0);
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 
 #include "scheduler/core_order.h"
@@ -20,6 +21,9 @@ struct EngineSettings {
   std::int64_t grid_ns = 0;
   std::int64_t phase_ns = 0;
   std::int64_t stop_grace_ns = 1'000'000'000;  // how long a module may still run once the node stops
+  // Counts by how much the watchdog is woken late: meanwhile, the machine runs nothing of the node. Borrowed, may be
+  // null.
+  std::atomic<std::int64_t>* stalled_ns = nullptr;
 };
 
 }  // namespace indurop::scheduler

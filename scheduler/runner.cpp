@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scheduler/runner.h"
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
 #include <exception>
@@ -254,7 +255,7 @@ void Runner::account() noexcept {
   }
 }
 
-void Runner::enforce_budget(rt::MonoTime now, bool stopping, std::int64_t grace_ns) noexcept {
+void Runner::enforce_budget(rt::MonoTime now, bool stopping, std::int64_t grace_ns, std::int64_t late_ns) noexcept {
   if (!attached_.load(std::memory_order_acquire) || !guard_.armed()) {
     return;
   }
@@ -269,7 +270,17 @@ void Runner::enforce_budget(rt::MonoTime now, bool stopping, std::int64_t grace_
   if (stopping && (limit == 0 || limit > grace_ns)) {
     limit = grace_ns;
   }
-  if (limited && rt::to_ns(now) - start > limit) {
+  const std::int64_t lasts = rt::to_ns(now) - start;
+  if (late_ns > 0) {
+    const std::int64_t before =
+        excused_run_.load(std::memory_order_relaxed) == run ? excused_ns_.load(std::memory_order_relaxed) : 0;
+    excused_ns_.store(before + std::clamp<std::int64_t>(late_ns, 0, std::max<std::int64_t>(lasts, 0)),
+                      std::memory_order_relaxed);
+    excused_run_.store(run, std::memory_order_release);
+  }
+  const std::int64_t excused =
+      excused_run_.load(std::memory_order_acquire) == run ? excused_ns_.load(std::memory_order_relaxed) : 0;
+  if (limited && lasts - excused > limit) {
     guard_.order_end(thread_.handle, run);
   }
 }

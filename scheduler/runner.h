@@ -112,8 +112,10 @@ class Runner {
   // Times of the task at `position` in the last run(); its end is 0 if it did not run.
   [[nodiscard]] const RunTimes& times(std::size_t position) const noexcept { return times_[position]; }
 
-  // Ends the module in progress if it exceeds its budget, or `grace_ns` once the node is stopping. Watchdog thread.
-  void enforce_budget(rt::MonoTime now, bool stopping, std::int64_t grace_ns) noexcept;
+  // Ends the module in progress if it exceeds its budget, or `grace_ns` once the node is stopping. `late_ns`: by how
+  // much the watchdog was woken late, during which the machine ran nothing of the node, so it does not count. One
+  // watchdog thread passes it, any thread may pass 0.
+  void enforce_budget(rt::MonoTime now, bool stopping, std::int64_t grace_ns, std::int64_t late_ns = 0) noexcept;
 
  private:
   void call_current() noexcept;
@@ -145,6 +147,9 @@ class Runner {
   std::vector<RunTimes> times_;
   std::atomic<TaskState*> current_{nullptr};
   std::atomic<std::int64_t> current_start_{0};
+  // Time that does not count of a run, and the number of that run.
+  std::atomic<std::int64_t> excused_ns_{0};
+  std::atomic<std::uint64_t> excused_run_{0};
   std::atomic<std::int32_t> previous_{-1};
   std::atomic<std::int64_t> previous_exec_{0};
 };

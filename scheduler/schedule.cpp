@@ -219,9 +219,10 @@ void Schedule::drain() const noexcept {
   }
 }
 
-void Schedule::enforce_budgets(rt::MonoTime now, bool stopping, std::int64_t grace_ns) const noexcept {
+void Schedule::enforce_budgets(rt::MonoTime now, bool stopping, std::int64_t grace_ns,
+                               std::int64_t late_ns) const noexcept {
   for (const auto& band : bands_) {
-    band->runner().enforce_budget(now, stopping, grace_ns);
+    band->runner().enforce_budget(now, stopping, grace_ns, late_ns);
   }
 }
 

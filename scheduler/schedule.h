@@ -52,7 +52,8 @@ class Schedule {
   Status start_threads();
   // Runs what is due of bands with threads, for callers without threads.
   void drain() const noexcept;
-  void enforce_budgets(rt::MonoTime now, bool stopping, std::int64_t grace_ns) const noexcept;
+  // As Runner::enforce_budget(), for all bands.
+  void enforce_budgets(rt::MonoTime now, bool stopping, std::int64_t grace_ns, std::int64_t late_ns) const noexcept;
   // After the threads have ended: completes statistics.
   void finish() const noexcept;
   // Ends these threads: first request it, then wait for it.

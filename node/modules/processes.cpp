@@ -124,7 +124,7 @@ bool Processes::ready() const noexcept {
   });
 }
 
-bool Processes::supervise(rt::MonoTime now, rt::MonoTime schedule) {
+bool Processes::supervise(rt::MonoTime now, rt::MonoTime schedule, std::int64_t stalled_ns) {
   for (Child& child : children_) {
     scheduler::ModuleRecord& module = record(child);
     if (child.pid > 0) {
@@ -136,7 +136,7 @@ bool Processes::supervise(rt::MonoTime now, rt::MonoTime schedule) {
       } else if (module.state.load(std::memory_order_acquire) == ModuleState::Starting && enrolled(child)) {
         enter(child);
       } else {
-        enforce_budget(child, schedule);
+        enforce_budget(child, schedule, stalled_ns);
       }
     } else if (module.state.load(std::memory_order_relaxed) == ModuleState::Restarting && !child.held &&
                schedule >= child.restart_at) {
@@ -252,7 +252,8 @@ void Processes::plan_restart(Child& child, rt::MonoTime schedule) {
   module.state.store(ModuleState::Restarting, std::memory_order_release);
 }
 
-void Processes::enforce_budget(Child& child, rt::MonoTime schedule) {
+void Processes::enforce_budget(Child& child, rt::MonoTime schedule, std::int64_t stalled_ns) {
+  const std::int64_t stalled = stalled_ns - std::exchange(child.stalled_ns, stalled_ns);
   const scheduler::ModuleRecord& module = record(child);
   const scheduler::ProcessSlot& at = slot(child);
   if (!managed(child) || module.budget_ns <= 0 || child.killed_for_budget) {
@@ -262,7 +263,13 @@ void Processes::enforce_budget(Child& child, rt::MonoTime schedule) {
   const std::int64_t start = at.start_ns.load(std::memory_order_relaxed);
   const bool running =
       done != at.released.load(std::memory_order_relaxed) && start >= at.release_ns.load(std::memory_order_relaxed);
-  if (running && rt::to_ns(schedule) - start > module.budget_ns) {
+  if (!running) {
+    return;
+  }
+  const std::int64_t lasts = rt::to_ns(schedule) - start;
+  const std::int64_t before = std::exchange(child.run_start_ns, start) == start ? child.excused_ns : 0;
+  child.excused_ns = before + std::clamp<std::int64_t>(stalled, 0, std::max<std::int64_t>(lasts, 0));
+  if (lasts - child.excused_ns > module.budget_ns) {
     child.killed_for_budget = true;
     ::kill(child.pid, SIGKILL);
   }

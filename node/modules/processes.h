@@ -47,8 +47,9 @@ class Processes {
   // Returns true if all periodic and sporadic ones have enrolled or ended.
   [[nodiscard]] bool ready() const noexcept;
   // Handles deaths, restarts, enrolments, budgets. Returns true if the node must stop because of one (reason()). `now`
-  // is real time, `schedule` that of the schedule, which restarts follow.
-  bool supervise(rt::MonoTime now, rt::MonoTime schedule);
+  // is real time, `schedule` that of the schedule, which restarts follow. `stalled_ns`: for how long the machine ran
+  // nothing of the node so far, which does not count as time of a run.
+  bool supervise(rt::MonoTime now, rt::MonoTime schedule, std::int64_t stalled_ns = 0);
   [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
   // When the next process is to be restarted, by the schedule's time; nullopt: none is.
   [[nodiscard]] std::optional<rt::MonoTime> next_restart() const noexcept;
@@ -90,6 +91,9 @@ class Processes {
     pid_t pid = -1;
     rt::MonoTime restart_at{};
     std::deque<rt::MonoTime> restarts;  // times of those within the window
+    std::int64_t run_start_ns = 0;      // of the run that was seen last
+    std::int64_t stalled_ns = 0;        // the machine, when it was seen
+    std::int64_t excused_ns = 0;        // of its time, which does not count
     bool killed_for_budget = false;
     bool killed_hanging = false;
     bool was_replaced = false;  // killed, because its file was replaced while it was started
@@ -117,7 +121,7 @@ class Processes {
   void died(Child& child, int status, rt::MonoTime schedule);
   void fault(Child& child, scheduler::FaultKind kind, const std::string& text);
   void plan_restart(Child& child, rt::MonoTime schedule);
-  void enforce_budget(Child& child, rt::MonoTime schedule);
+  void enforce_budget(Child& child, rt::MonoTime schedule, std::int64_t stalled_ns);
   scheduler::ModuleRecord& record(const Child& child) noexcept { return run_.modules()[child.index]; }
   scheduler::ProcessSlot& slot(const Child& child) noexcept { return run_.process_slots()[child.index]; }
 

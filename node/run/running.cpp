@@ -78,7 +78,7 @@ scheduler::Kernel& Running::make_kernel() {
   return simulation_.emplace(options_.simulation, *prepared_.store, run_, signals_, std::move(watch)).kernel();
 }
 
-scheduler::EngineSettings Running::engine_settings() const {
+scheduler::EngineSettings Running::engine_settings() {
   const scheduler::RunBlockSetup& setup = prepared_.setup;
   scheduler::EngineSettings settings;
   settings.basic_period_ns = setup.basic_period_ns;
@@ -93,6 +93,7 @@ scheduler::EngineSettings Running::engine_settings() const {
     settings.grid_ns = setup.macro_period_ns <= rt::kNanosPerSecond ? setup.macro_period_ns : setup.basic_period_ns;
     settings.phase_ns = simulation_ ? 0 : (rt::now_ns() - rt::wall_ns()) % settings.grid_ns;
   }
+  settings.stalled_ns = &reported_.stalled_ns;
   return settings;
 }
 
@@ -263,7 +264,8 @@ Ending Running::supervise() {
       ending = {kOk, simulation_->place() != nullptr ? "end of the simulation" : "end of the steps"};
       break;
     }
-    if (processes_.supervise(now, kernel_.now()) || (simulation_ && !await_processes(now + kEnrolInSimulation))) {
+    if (processes_.supervise(now, kernel_.now(), reported_.stalled_ns.load(std::memory_order_relaxed)) ||
+        (simulation_ && !await_processes(now + kEnrolInSimulation))) {
       ending = {kFailed, processes_.reason()};
       break;
     }
@@ -282,7 +284,7 @@ Ending Running::supervise() {
   if (std::string why = memory_.check(rt::MonoClock::now()); !why.empty()) {  // may have ended the schedule
     ending = {kFailed, std::move(why)};
   }
-  if (const std::uint32_t order = stop_order_.load(std::memory_order_acquire); order != 0) {
+  if (const std::uint32_t order = reported_.stop_order.load(std::memory_order_acquire); order != 0) {
     const scheduler::ModuleRecord& module = run_.modules()[order - 1];
     ending.code = kFailed;
     if (ending.reason.empty()) {

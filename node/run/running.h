@@ -57,7 +57,7 @@ class Running {
   scheduler::Hooks plain_hooks();
   scheduler::Hooks apart_hooks();
   static void set_tape(scheduler::Hooks& hooks, const tape::Tape& tape);
-  [[nodiscard]] scheduler::EngineSettings engine_settings() const;
+  [[nodiscard]] scheduler::EngineSettings engine_settings();
 
   const Options& options_;
   Console& console_;
@@ -66,8 +66,12 @@ class Running {
   Prepared& prepared_;
   scheduler::RunBlock& run_;
   Loaded& loaded_;
-  bool started_ = false;                      // start() of the modules was called, so stop() will be
-  std::atomic<std::uint32_t> stop_order_{0};  // 1 + index of the module whose policy stops the node
+  bool started_ = false;  // start() of the modules was called, so stop() will be
+  // What the engine reports.
+  struct {
+    std::atomic<std::uint32_t> stop_order{0};  // 1 + index of the module whose policy stops the node
+    std::atomic<std::int64_t> stalled_ns{0};   // as EngineSettings::stalled_ns
+  } reported_;
   scheduler::SystemKernel system_;
   std::optional<Simulation> simulation_;  // in virtual time
   scheduler::Kernel& kernel_;             // the one of the two that the schedule runs on

@@ -20,7 +20,7 @@ scheduler::Hooks Running::plain_hooks() {
   };
   hooks.stop_node = [](void* context, std::uint32_t module, const char* /*reason*/) noexcept {
     auto& self = *static_cast<Running*>(context);
-    self.stop_order_.store(module + 1, std::memory_order_release);
+    self.reported_.stop_order.store(module + 1, std::memory_order_release);
     self.engine_.request_stop();
   };
   if (checked_.mirror) {

@@ -46,7 +46,7 @@ class Inverse {
   [[nodiscard]] bool leaves_workpiece_open(Held given) const noexcept { return (workpiece_ & ~given) != 0; }
   // Returns `near` with the axes that a pose leaves undetermined set to their values in `from`: along a line they have
   // these values, whatever the place before was.
-  [[nodiscard]] Joints held_as(const Joints& from, Joints near) const noexcept {
+  [[nodiscard]] Joints held_as(const Joints& from, const Joints& near) const noexcept {
     return held_ == 0 ? near : with_axes(held_, from, near);
   }
   // Text for the user, such as "spherical wrist, inverse kinematics in closed form".

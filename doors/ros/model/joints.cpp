@@ -76,7 +76,7 @@ std::vector<const base::Element*> axes_of(const JointsByChild& joints) {
   std::vector<const base::Element*> best;
   std::optional<std::string> tool;
   for (const char* const name : {"tcp", "tool0"}) {
-    tool = joints.count(name) != 0 ? name : tool;
+    tool = joints.contains(name) ? name : tool;
   }
   for (const auto& [link, joint] : joints) {
     auto chain = axes_to(joints, link);

@@ -6,8 +6,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/rt/guard.h"
 #include "fixture.h"
 
 namespace indurop::scheduler {
@@ -101,6 +103,83 @@ TEST_F(RunnerClock, Conditions_are_asked_after_what_the_hooks_did_for_the_run_be
   }
   EXPECT_EQ(looks(), 1 + 2 * static_cast<int>(kTasks));
 }
+
+// A run is ended by a signal to its thread, which this one sends to itself.
+#ifndef __SANITIZE_THREAD__
+class RunnerBudget : public RunnerClock {
+ protected:
+  static constexpr std::int64_t kBudget = 10'000;
+  RunnerBudget() {
+    rt::install_guard_handlers();
+    g_runner = &sut;
+    sut.attach_thread();
+    states_[0].task.budget_ns = kBudget;
+  }
+  ~RunnerBudget() override { sut.detach_thread(); }
+  // The watchdog looks after this time, by so much later than planned.
+  static void pass(std::int64_t after_ns, std::int64_t late_ns) {
+    g_counted_clock->ns += after_ns;
+    g_runner->enforce_budget(g_counted_clock->now(), false, 0, late_ns);
+    g_passed += after_ns - late_ns;
+  }
+  // How much of its time counted in the passes that the run survived.
+  std::int64_t run(void (*module)()) {
+    states_[0].task.run = module;
+    states_[0].gate = Gate::Open;
+    block_->modules()[0].state.store(ModuleState::Running);
+    g_passed = 0;
+    sut.run(std::span(pointers_).first(1), 0, rt::mono_time(clock_.ns));
+    return g_passed;
+  }
+  [[nodiscard]] bool was_ended() const { return block_->modules()[0].state.load() == ModuleState::Faulted; }
+
+  static inline Runner* g_runner = nullptr;
+  static inline std::int64_t g_passed = 0;
+  Runner sut{*block_, clock_, hooks_, trace_, kTasks};
+};
+
+TEST_F(RunnerBudget, Time_in_which_the_watchdog_could_not_run_either_does_not_count) {
+  const auto stalls = [] {
+    pass(50'000, 45'000);
+    pass(4'000, 0);
+    pass(80'000, 80'000);
+  };
+  EXPECT_EQ(run(stalls), 9'000);
+  EXPECT_FALSE(was_ended());
+}
+
+TEST_F(RunnerBudget, A_run_that_hangs_is_ended_after_a_stall_too) {
+  const auto hangs = [] {
+    pass(50'000, 45'000);
+    for (;;) {
+      pass(2'000, 0);
+    }
+  };
+  EXPECT_EQ(run(hangs), 9'000);
+  EXPECT_TRUE(was_ended());
+}
+
+TEST_F(RunnerBudget, A_stall_is_not_for_the_next_run) {
+  EXPECT_EQ(run([] { pass(50'000, 45'000); }), 5'000);
+  EXPECT_FALSE(was_ended());
+  EXPECT_EQ(run([] { pass(kBudget + 1, 0); }), 0);
+  EXPECT_TRUE(was_ended());
+}
+
+// A watchdog that is later than the run is long was late before it, too.
+TEST_F(RunnerBudget, No_more_than_the_whole_run_is_excused) {
+  const auto runs = [] {
+    pass(1'000, 500'000);
+    for (;;) {
+      pass(2'000, 0);
+    }
+  };
+  g_passed = 0;
+  run(runs);
+  EXPECT_TRUE(was_ended());
+  EXPECT_LT(clock_.ns, 1'000'000 + 1'000 + kBudget + 4'000);
+}
+#endif
 
 }  // namespace
 }  // namespace indurop::scheduler
