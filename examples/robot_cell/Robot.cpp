@@ -307,7 +307,8 @@ void start() {
   if (plcRobot->axis_count() > MAX_JOINTS) {
     throw std::runtime_error("the arm has " + std::to_string(plcRobot->axis_count()) +
                              " axes, the .glb has variables of " + std::to_string(MAX_JOINTS) +
-                             ": raise MAX_JOINTS and add AXIS7_IN, AXIS7_OUT");
+                             ": raise MAX_JOINTS and add AXIS" + std::to_string(MAX_JOINTS + 1) + "_IN, AXIS" +
+                             std::to_string(MAX_JOINTS + 1) + "_OUT");
   }
   signals = std::make_unique<JobSignals>(plcRobot->signals());
   ROBOT_MODULE_STATE.eState = ROBOT_GROUP_DISABLED;

@@ -14,6 +14,7 @@
 #include "control/robot/files/check_splines.h"
 #include "control/robot/files/check_workpiece.h"
 #include "control/robot/files/read_bodies.h"
+#include "control/robot/files/solve_points.h"
 #include "control/robot/kinematics/abilities.h"
 #include "control/robot/kinematics/tool_set.h"
 #include "control/robot/kinematics/workspace.h"
@@ -87,12 +88,6 @@ Diagnostics check_points(const JobBook& book, const Arm& arm) {
   return errors;
 }
 
-// Taught tools and points in frames have no known positions while there are other errors: no messages about them then.
-bool is_known(const Point& point, const JobBook& book, bool placed) {
-  const auto taught = [](const Tool& tool) { return tool.is_taught; };
-  return placed || (point.frame < 0 && std::none_of(book.tools.begin(), book.tools.end(), taught));
-}
-
 Diagnostics check_workspace(const FileNames& names, const JobBook& book, const Arm& arm, bool placed) {
   const std::vector<double>& corners = names.workspace;
   bool sane = corners.empty() || corners.size() == 6;
@@ -122,143 +117,12 @@ Diagnostics check_workspace(const FileNames& names, const JobBook& book, const A
   return errors;
 }
 
-std::string ways_of(const Solutions& found) {
-  std::string ways;
-  for (int i = 0; i < found.count; ++i) {
-    const std::string one = std::to_string(found.list[static_cast<std::size_t>(i)].posture);
-    ways += ways.find(one) != std::string::npos ? "" : (ways.empty() ? "" : ", ") + one;
-  }
-  return ways;
-}
-
 ArmShape shape_of(const Arm& arm) {
   ArmShape shape{arm.count(), {}};
   for (int i = 0; i < arm.count(); ++i) {
     shape.slides[static_cast<std::size_t>(i)] = arm.axis(i).slides();
   }
   return shape;
-}
-
-// Returns "RPY 180 0 12.5", the reachable orientation closest to that of a pose, if only the orientation prevents it;
-// else nothing.
-std::string nearest_turn(const Arm& arm, const Inverse& inverse, const Pose& pose) {
-  const Solutions found = inverse.search(pose, Joints::Zero(), {64, 64, HUGE_VAL, 0});
-  double least = HUGE_VAL;
-  std::ostringstream text;
-  for (int i = 0; i < found.count; ++i) {
-    const Quat turn = arm.forward(found.list[static_cast<std::size_t>(i)].q).orientation;
-    const double away = rotation_between(turn, pose.orientation).norm();
-    if (away < least - 1e-6) {
-      const Vec3 rpy = to_rpy(turn);
-      least = away;
-      text.str("");
-      text << std::fixed << std::setprecision(2) << "RPY " << degrees(rpy[0]) << " " << degrees(rpy[1]) << " "
-           << degrees(rpy[2]);
-    }
-  }
-  return text.str();
-}
-
-std::string out_of_reach(const Arm& arm, const Inverse& inverse, const Target& target, Reach reach) {
-  const std::string turn = arm.count() < 6 ? nearest_turn(arm, inverse, target.pose) : "";
-  if (!turn.empty()) {
-    return "an arm of " + std::to_string(arm.count()) + " axes cannot hold its tool like that there; the nearest is " +
-           turn;
-  }
-  return std::string("the arm cannot hold its tool like that there") +
-         (reach == Reach::JointLimit ? " within the limits of its joints" : "") +
-         "; give it a nearer position or another orientation";
-}
-
-// A point or a motion may give the value of an axis only if a pose leaves that axis undetermined.
-std::string wrong_axis(const Arm& arm, Held held) {
-  const Held more = held & ~redundant_axes(arm);
-  for (unsigned i = 0; i < kAxes; ++i) {
-    if ((more >> i & 1U) != 0) {
-      return "AXIS " + std::to_string(i + 1) + " follows from the pose; leave it out, or use JOINT";
-    }
-  }
-  return "";
-}
-
-std::string wrong_pose(const Arm& arm, const Inverse& inverse, const Target& target, const Solutions& found) {
-  if (std::string text = wrong_axis(arm, target.held); !text.empty()) {
-    return text;
-  }
-  if (found.count == 0) {
-    return out_of_reach(arm, inverse, target, found.reach);
-  }
-  if (target.posture && !inverse.has_postures()) {
-    return "this arm has no postures; leave POSTURE out, or use JOINT";
-  }
-  if (target.posture && found.nearest(Joints::Zero(), target.posture) == nullptr) {
-    return "not possible in posture " + std::to_string(*target.posture) + ", but in " + ways_of(found);
-  }
-  return "";
-}
-
-// The tool at a point is known only when the job runs; points that no tool reaches are reported now. The posture of an
-// arm without a closed form at poses has to be searched for, which is done here, before anything moves: a pose without
-// solution is an error there.
-Diagnostics solve_points(JobBook& book, const Arm& arm, bool placed) {
-  Diagnostics errors;
-  const ToolSet tools(arm, book.tips());
-  for (Point& point : book.points) {
-    const Target& target = point.target;
-    if (!target.is_pose || !is_known(point, book, placed)) {
-      continue;
-    }
-    const bool open = tools.inverse(0).leaves_workpiece_open(target.held);
-    const bool closed = tools.inverse(0).closed_form() && target.held == 0;
-    Search how;
-    how.held = target.held;
-    std::string wrong;
-    bool possible = false;
-    for (int i = 0; i < tools.count(); ++i) {
-      const Inverse& inverse = tools.inverse(i);
-      const auto found = std::make_shared<const Solutions>(
-          closed && !open ? inverse.all(target.pose, target.joints) : inverse.search(target.pose, target.joints, how));
-      const std::string text = wrong_pose(tools.arm(i), inverse, target, *found);
-      wrong = i == 0 ? text : wrong;
-      possible = possible || text.empty();
-      if (!closed && !open) {  // where the workpiece stands is known only when the job runs
-        book.known.push_back(found);
-        point.known.push_back(found.get());
-      }
-    }
-    if (!possible) {
-      errors.push_back(error(point.file, point.place, "point '" + point.name + "': " + wrong));
-      const bool may_move = closed || book.is_computed(point);
-      errors.back().severity = may_move ? base::Diagnostic::Severity::Warning : base::Diagnostic::Severity::Error;
-    }
-  }
-  return errors;
-}
-
-// The axes of lines and circles.
-Diagnostics check_axes_of_motions(const JobBook& book, const Arm& arm) {
-  Diagnostics errors;
-  for (const Job& job : book.jobs) {
-    for (const Step& step : job.steps) {
-      const MotionExtras* const extras = step.op == Op::Move ? book.extras_of(step) : nullptr;
-      for (std::size_t i = 0; extras != nullptr && i < extras->settings.size(); ++i) {
-        const Step& each = extras->settings[i];
-        if (each.op != Op::Axis) {
-          continue;
-        }
-        std::string wrong = wrong_axis(arm, 1U << static_cast<unsigned>(each.index));
-        const Axis& axis = arm.axis(each.index);
-        if (wrong.empty() && each.formula < 0 && !axis.endless &&
-            !(each.value >= axis.lower && each.value <= axis.upper)) {
-          wrong = "AXIS " + std::to_string(each.index + 1) + " is beyond the limits of this axis in the URDF";
-        }
-        if (!wrong.empty()) {
-          errors.push_back(error(job.file, {static_cast<int>(each.line), 1}, wrong));
-        }
-      }
-    }
-  }
-  return errors;
 }
 
 // Speeds above the limit are no danger: lines then run at full speed.

@@ -9,6 +9,7 @@
 #include "control/robot/files/read_files.h"
 #include "control/robot/job/near_name.h"
 #include "control/robot/job/point_lines.h"
+#include "control/robot/kinematics/inverse.h"
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 
@@ -66,10 +67,18 @@ std::string place_for(const TeachOrder& order, const JobBook& book, const Arm& a
   const bool in_its_frame = order.frame.empty() && was_pose && before->frame >= 0;
   const WorkFrame* const frame =
       in_its_frame ? &book.frames[static_cast<std::size_t>(before->frame)] : named(book.frames, order.frame);
-  if (frame == nullptr) {
-    return order.frame.empty() ? pose_text(tip_of(stand)) : std::string();
+  if (frame == nullptr && !order.frame.empty()) {
+    return "";
   }
-  return pose_text(seen_from(frame->pose, tip_of(stand))) + " IN " + frame->name;
+  // What the point says of posture and axes it says again; of those that move the workpiece, in any case.
+  Target target;
+  target.pose = tip_of(stand);
+  target.joints = joints_of_stand(arm, stand);
+  target.held = workpiece_axes(arm) | (was_pose ? before->target.held : 0U);
+  if (was_pose && before->target.posture) {
+    target.posture = Inverse(arm).posture_at(target.joints);
+  }
+  return pose_text(arm, target, frame);
 }
 
 ArmShape shape_of(const Arm& arm) {

@@ -205,6 +205,9 @@ Result<ArmModel, std::vector<base::Diagnostic>> UrdfReader::read_delta(const urd
   if (count_ != 3 && count_ != 4) {
     error(at, "<delta> needs arms=\"...\", the names of three joints, and may have turn=\"...\"");
   }
+  if (const std::size_t workpiece = text_.find("<workpiece"); workpiece != std::string::npos) {
+    error(workpiece, "<workpiece>: a delta cannot follow a workpiece that axes move");
+  }
   if (errors_.empty() && !delta.position(Vec3::Zero()).allFinite()) {
     error(at, "<delta>: with the arms level the rods do not meet; lower has to be longer");
   }

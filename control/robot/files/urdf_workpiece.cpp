@@ -13,6 +13,9 @@ void UrdfReader::begin_at_workpiece() {
   if (at == std::string::npos) {
     return;
   }
+  if (const std::size_t more = text_.find("<workpiece", at + 1); more != std::string::npos) {
+    error(more, "there is one <workpiece> already; axes move one link only");
+  }
   const std::string name = attribute(at, "link");
   const auto link = model_->getLink(name);
   if (link == nullptr) {

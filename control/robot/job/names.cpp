@@ -208,7 +208,7 @@ void JobNames::resolve_places() {
     part.index = find(known_.frames, at.name);
     part.is_frame = part.index >= 0;
     part.index = part.is_frame ? part.index : find(known_.points, at.name);
-    if (part.index < 0 && at.name == kWorld) {
+    if (part.index < 0 && same_word(at.name, kWorld)) {
       part.op = PlaceOp::World;
     } else if (part.index < 0) {
       std::vector<std::string> known = suggested(book.points);
@@ -258,7 +258,9 @@ void JobNames::resolve(const Reference& reference) {
 int JobNames::frame_called(const Mention& at) {
   const int frame = find(known_.frames, at.name);
   if (frame < 0) {
-    error(at, robot::no_such("frame", at.name, suggested(draft_.book().frames), "FRAME", kFrame));
+    error(at, same_word(at.name, kWorld)
+                  ? "places in the world are computed while the job runs: P = WORLD : POSE x, y, z RPY r, p, y"
+                  : robot::no_such("frame", at.name, suggested(draft_.book().frames), "FRAME", kFrame));
   }
   return frame;
 }

@@ -127,7 +127,7 @@ void PlaceFormulaReader::name(Draft& draft) {
     line_.error(token, kExpected + JobLine::shown(token));
     return;
   }
-  draft.reads.robot = draft.reads.robot || token.text == kWorld;
+  draft.reads.robot = draft.reads.robot || same_word(token.text, kWorld);
   draft.names.push_back({draft.parts.size(), token});
   draft.push(PlaceOp::Named);
 }

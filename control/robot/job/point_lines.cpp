@@ -45,15 +45,23 @@ std::string pose_text(const Pose& pose) {
          ' ' + number(turn.y()) + ' ' + number(turn.z());
 }
 
+std::string pose_text(const Arm& arm, const Target& target, const WorkFrame* frame) {
+  std::string out = pose_text(frame == nullptr ? target.pose : seen_from(frame->pose, target.pose));
+  out += target.posture ? " POSTURE " + std::to_string(*target.posture) : "";
+  for (int i = 0; i < arm.count(); ++i) {
+    if ((target.held >> static_cast<unsigned>(i) & 1U) != 0) {
+      const double at = target.joints[i];
+      out += " AXIS " + std::to_string(i + 1) + ' ' + number(arm.axis(i).slides() ? at * 1000 : degrees(at));
+    }
+  }
+  return out + (frame == nullptr ? "" : " IN " + frame->name);
+}
+
 std::string place_text(const JobBook& book, const Point& point, const Arm& arm) {
   if (!point.target.is_pose) {
     return joint_text(arm, point.target.joints);
   }
-  if (point.frame < 0) {
-    return pose_text(point.target.pose);
-  }
-  const WorkFrame& frame = book.frames[static_cast<std::size_t>(point.frame)];
-  return pose_text(seen_from(frame.pose, point.target.pose)) + " IN " + frame.name;
+  return pose_text(arm, point.target, point.frame < 0 ? nullptr : &book.frames[static_cast<std::size_t>(point.frame)]);
 }
 
 Pose seen_from(const Pose& frame, const Pose& pose) {

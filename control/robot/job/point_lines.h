@@ -16,7 +16,10 @@ std::string joint_text(const Arm& arm, const Joints& joints);
 // Returns "POSE 500 -200 350 RPY 180 0 180", in mm and deg, to a thousandth. `pose` is seen from the frame in which it
 // is given.
 std::string pose_text(const Pose& pose);
-// The same as written in the file: in the frame of the point.
+// A target with all that a point says of it, "POSE 500 -200 350 RPY 180 0 180 POSTURE 2 AXIS 7 90 IN pallet". `frame`:
+// the one in which it is written; null: the base's.
+std::string pose_text(const Arm& arm, const Target& target, const WorkFrame* frame);
+// The same as written in the file.
 std::string place_text(const JobBook& book, const Point& point, const Arm& arm);
 
 // Transforms `pose` into coordinates of `frame`; both are given in the same frame.

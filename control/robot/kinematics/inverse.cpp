@@ -31,7 +31,7 @@ Inverse::Result Inverse::nearest(const Solutions& known, const Joints& near,
   Solutions turned;
   for (int i = 0; i < known.count; ++i) {
     const Solution& one = known.list[static_cast<std::size_t>(i)];
-    turned.add(arm_, one.q, one.posture, near);
+    turned.add(arm_, one.q, one.posture, with_axes(workpiece_, one.q, near));  // which keep their turns
   }
   const Solution* best = turned.nearest(near, posture);
   return best != nullptr ? Result{Reach::Ok, *best} : Result{Reach::JointLimit, {}};
@@ -83,6 +83,10 @@ Inverse::Result Inverse::reach(const Pose& pose, const Joints& near) const noexc
   }
   const NumericSolution one = solve_freely(arm_, pose, near);
   return {one.reach, {one.q, postures_ ? postures_->at(arm_, one.q) : std::uint8_t{0}}};
+}
+
+std::optional<std::uint8_t> Inverse::posture_at(const Joints& q) const noexcept {
+  return postures_ ? std::optional(postures_->at(arm_, q)) : std::nullopt;
 }
 
 const char* Inverse::kind() const noexcept {

@@ -40,6 +40,8 @@ class Inverse {
   [[nodiscard]] bool closed_form() const noexcept { return wrist_ || parallel_; }
   // Returns whether the arm has named postures (different ways to reach the same pose).
   [[nodiscard]] bool has_postures() const noexcept { return postures_.has_value(); }
+  // The posture in which the arm is there; nothing if it has none.
+  [[nodiscard]] std::optional<std::uint8_t> posture_at(const Joints& q) const noexcept;
   // The axes that a pose leaves undetermined.
   [[nodiscard]] Held held() const noexcept { return held_; }
   // Returns whether axes that move the workpiece are not among these.

@@ -151,7 +151,8 @@ std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm, b
   const auto count = static_cast<std::size_t>(arm.count());
   const auto check = [&](const char* name, const std::vector<double>& values, bool or_none = false) {
     const auto is_sane = [&](double v) { return std::isfinite(v) && (v > 0 || (or_none && v == 0)); };
-    if (!values.empty() && (values.size() != count || !std::all_of(values.begin(), values.end(), is_sane))) {
+    const bool fits = values.empty() || values.size() == count;
+    if (!fits || !std::all_of(values.begin(), values.end(), is_sane)) {
       wrong.push_back({name, "it has to be " + std::to_string(count) + " numbers " + (or_none ? "from" : "above") +
                                  " 0, one of each axis"});
     }
@@ -170,7 +171,12 @@ std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm, b
   check("acceleration", settings.acceleration);
   check("jerk", settings.jerk);
   check("rated_torque", settings.rated_torque);
-  check("collision_limit", settings.collision_limit);
+  // The torques of axes that move the workpiece are not known, so none may be unexpected.
+  std::vector<double> of_arm = settings.collision_limit;
+  for (std::size_t i = 0; of_arm.size() == count && i < count; ++i) {
+    of_arm[i] = arm.moves_workpiece(static_cast<int>(i)) && of_arm[i] == 0 ? 1 : of_arm[i];
+  }
+  check("collision_limit", of_arm);
   check("rotor_inertia", settings.rotor_inertia, true);
   for (const char* name : {"collision_limit", "rotor_inertia"}) {
     const bool rotors = name == std::string_view("rotor_inertia");

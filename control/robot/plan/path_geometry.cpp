@@ -68,14 +68,17 @@ Fault resolve(const Places& places, const MoveCommand& command, Draft& draft) no
     return {beyond < 0 ? ErrorCode::Ok : ErrorCode::JointLimit, beyond + 1};
   }
   s.end = target.pose;
+  const Joints held = with_axes(target.held, target.joints, s.from);
+  if (const int beyond = target.held == 0 ? -1 : places.arm().goes_beyond(s.from, held, 1e-9); beyond >= 0) {
+    return {ErrorCode::JointLimit, beyond + 1};
+  }
   const Inverse& inverse = places.inverse();
   if (command.move != Move::Joint && !inverse.closed_form()) {
     return {};  // a path that is followed from place to place reaches its end anyway
   }
   const auto found = target.known != nullptr ? inverse.nearest(*target.known, s.from, target.posture)
-                     : inverse.closed_form()
-                         ? inverse.nearest(s.end, with_axes(target.held, target.joints, s.from), target.posture)
-                         : search(places, target, s.from, draft.work);
+                     : inverse.closed_form() ? inverse.nearest(s.end, held, target.posture)
+                                             : search(places, target, s.from, draft.work);
   s.to = found.solution.q;
   return {code_of(found.reach)};
 }

@@ -15,7 +15,7 @@ import numpy
 # a (m), alpha, d (m) of the six axes; the last one ends at the flange, from which the torch is 150 mm long.
 ARM = [(0, numpy.pi / 2, 0.1273), (-0.612, 0, 0), (-0.5723, 0, 0), (0, numpy.pi / 2, 0.163941), (0, -numpy.pi / 2, 0.1157),
        (0, 0, 0.0922 + 0.15)]
-BASE, DISC = (-0.9, 0, 0.3), (0, 0, 0.45)
+BASE, DISC = (0, 0, 0), (0.9, 0, 0.15)
 RADIUS, HEIGHT, SPEED = 200, 5, 100  # mm, mm/s
 PERIOD = 0.004  # s
 

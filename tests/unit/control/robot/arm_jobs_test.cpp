@@ -125,7 +125,7 @@ TEST(ArmJobs, What_an_arm_cannot_do_is_said_with_the_line) {
   EXPECT_EQ(error_of("iiwa14", b + "MOVL B AXIS 2 20\n"),
             "main.job:2:1: error: AXIS 2 follows from the pose; leave it out, or use JOINT");
   EXPECT_EQ(error_of("iiwa14", b + "MOVL B AXIS 3 200\n"),
-            "main.job:2:1: error: AXIS 3 is beyond the limits of this axis in the URDF");
+            "main.job:2:1: error: AXIS 3 is at 200 degrees, its limits are -170 to 170");
   EXPECT_EQ(error_of("iiwa14", b + "MOVL B AXIS 8 20\n"), "main.job:2:13: error: axes have the numbers 1 to 7");
   EXPECT_EQ(
       error_of("iiwa14", b + "MOVE FREE TO B AXIS 3 20\n"),

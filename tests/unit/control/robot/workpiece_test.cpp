@@ -96,6 +96,29 @@ TEST_F(Workpiece, Turns_alone_while_the_arm_stands) {
   EXPECT_NEAR(cell->out.command[6], -80, 1e-9);
 }
 
+// However often it has turned before.
+TEST_F(Workpiece, Stands_at_the_angle_of_a_point_not_a_turn_away) {
+  run("POINT C = POSE 100 0 150 RPY 180 0 0 AXIS 7 400\nMOVJ HERE AXIS 7 -350\nMOVJ C\n");
+  EXPECT_NEAR(cell->out.command[6], 400, 1e-9);
+  expect_on_workpiece({100, 0, 150});
+  run("MOVJ HERE AXIS 7 -225\nMOVJ A\nMOVL B AXIS 7 20\n");
+  EXPECT_NEAR(cell->out.command[6], 20, 1e-9);
+}
+
+TEST_F(Workpiece, A_joint_motion_beyond_a_limit_of_it_is_rejected_before_it_begins) {
+  text.replace(text.find("type=\"continuous\""), 17, "type=\"revolute\"");
+  text.replace(text.find("<limit velocity=\"1.5\""), 21, "<limit lower=\"-1.6\" upper=\"1.6\" velocity=\"1.5\"");
+  for (const std::string motion : {"MOVJ B AXIS 7 x", "MOVJ B STRAIGHT AXIS 7 x", "MOVJ HERE OFFSET 0, 0, 20 AXIS 7 x",
+                                   "MOVJ HERE AXIS 7 x", "MOVL B AXIS 7 x"}) {
+    run("VAR x = 100\nMOVJ A\nTRY\n" + motion + "\nRECOVER\nMOVJ HERE AXIS 7 -5\nEND\n");
+    EXPECT_NEAR(cell->out.command[6], -5, 1e-9) << motion;
+    EXPECT_NEAR(most, 0, 1e-6) << motion;
+  }
+  EXPECT_NE(errors_of("POINT C = POSE 100 0 150 RPY 180 0 0 AXIS 7 100\nMOVJ C\n")
+                .find("main.job:1:7: error: point 'C': AXIS 7 is at 100 degrees, its limits are -91.6732 to 91.6732"),
+            std::string::npos);
+}
+
 TEST_F(Workpiece, A_place_in_the_world_is_reached_however_it_is_turned) {
   for (const int turned : {0, 50, -110}) {
     run("POINT BIN = POSE -100 50 150 RPY 180 0 0\nMOVJ HERE AXIS 7 " + std::to_string(turned) +
@@ -172,6 +195,7 @@ TEST_F(Workpiece, What_is_wrong_in_the_URDF_is_said_with_its_line) {
     EXPECT_NE(found.find(wanted), std::string::npos) << element << ": " << found;
   };
   expect("<workpiece link=\"plat\"/>", "error: <workpiece> names the link 'plat', which is not there");
+  expect("<workpiece link=\"work\"/><workpiece link=\"work\"/>", "error: there is one <workpiece> already");
   expect("<workpiece/>", "error: <workpiece> names the link '', which is not there");
   expect("<workpiece link=\"table\"/>", "error: <workpiece>: no joint moves the link 'table'");
   expect("<workpiece link=\"link2\"/>", "error: <workpiece>: joint 'joint1' moves both the link 'link2' and the arm");
