@@ -32,7 +32,7 @@ TEST_P(Topic_pages, Show_what_the_robot_does) {
   const std::string picture = picture_of(GetParam());
   EXPECT_EQ(picture, picture_of(GetParam()));
   golden::expect_file(page(GetParam().topic + ".svg"), picture);
-  EXPECT_THAT(golden::slurp(page(GetParam().topic + ".md")), testing::HasSubstr("](" + GetParam().topic + ".svg)"));
+  EXPECT_THAT(golden::slurp(page(GetParam().page + ".md")), testing::HasSubstr("](" + GetParam().topic + ".svg)"));
 }
 
 TEST_P(Topic_pages, Have_the_jobs_that_are_tested) {
@@ -41,7 +41,7 @@ TEST_P(Topic_pages, Have_the_jobs_that_are_tested) {
   ASSERT_NE(topic, topics().end());
   std::vector<std::string> jobs = topic->others;
   jobs.insert(jobs.begin(), topic->name);
-  const std::filesystem::path file = page(GetParam().topic + ".md");
+  const std::filesystem::path file = page(GetParam().page + ".md");
   std::string text = golden::slurp(file);
   for (const std::string& job : jobs) {
     const auto [begin, end] = block_of(text, job);

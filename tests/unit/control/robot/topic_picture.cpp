@@ -128,15 +128,15 @@ double draw_legend(base::SvgPart& out, double top, const PictureScript& script, 
   };
   entry("at rest", [&](const Pixel& at) { out.circle(at.x, at.y, 3, "class=\"rest\""); });
   for (const ShownSignal& signal : script.signals) {
-    if (signal.is_curve) {
-      continue;
-    }
     for (const bool on : {true, false}) {
+      if (signal.is_curve) {
+        break;
+      }
       entry(signal.name + (on ? " on" : " off"),
             [&](const Pixel& at) { draw_signal_mark(out, at, signal.is_output, on, signal.colour); });
     }
     if (signal.has_band) {
-      entry("while it is on", [&](const Pixel& at) {
+      entry("while " + signal.name + (signal.is_curve ? " is not 0" : " is on"), [&](const Pixel& at) {
         out.rect(at.x - 9, at.y - 5, 17, 10, fmt::format("rx=\"5\" fill=\"{}\" fill-opacity=\".3\"", signal.colour));
       });
     }

@@ -29,7 +29,7 @@ struct Remark {
 enum class Views : std::uint8_t { SideAndAbove, AboveAndSide, Side, SideAndHeight, None };
 
 struct PictureScript {
-  std::string topic, title;
+  std::string topic, page, title;
   char across = 'y';
   Views views = Views::SideAndAbove;
   std::vector<ShownSignal> signals{};

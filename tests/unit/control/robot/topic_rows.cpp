@@ -14,6 +14,10 @@ namespace {
 
 constexpr double kLeftOfRows = 172, kRightOfRows = 686;  // px
 
+std::string rounded(double value) {
+  return fmt::format("{:g}", std::round(value * 100) / 100);
+}
+
 class TopicRows {
  public:
   TopicRows(base::SvgPart& out, double top, const TopicTrace& trace)
@@ -59,8 +63,8 @@ class TopicRows {
       }
     }
     out_.path(way + fmt::format("L{} {}Z", base::svg_number(kRightOfRows), base::svg_number(y(0))), "class=\"curve\"");
-    base::svg_text(out_, kLeftOfRows - 5, top_ + 8, "end", "label", fmt::format("{:.4g}", most));
-    base::svg_text(out_, kLeftOfRows - 5, top_ + height + 3, "end", "label", fmt::format("{:.4g}", least));
+    base::svg_text(out_, kLeftOfRows - 5, top_ + 8, "end", "label", rounded(most));
+    base::svg_text(out_, kLeftOfRows - 5, top_ + height + 3, "end", "label", rounded(least));
     base::svg_line(out_, kLeftOfRows, y(0), kRightOfRows, y(0), "base");
     top_ += height + 10;
   }

@@ -12,6 +12,7 @@ const std::vector<Topic>& topics() {
                                           {"tools", {}, -90, 1e-3},
                                           {"interrupts", {"eject"}, 250, 1e-3},
                                           {"glue", {}, 0, 0},
+                                          {"bead", {}, 0, 0},
                                           {"spline", {}, -150, 1e-3},
                                           {"search", {}, 317, 0.3},
                                           {"seam", {}, 12, 0.01},

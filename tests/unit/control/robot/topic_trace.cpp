@@ -79,9 +79,10 @@ bool holds(const TopicSample& sample, const std::string& trigger) {
 // The first sample of a standstill, which may be shorter than a period.
 bool is_rest(const std::vector<TopicSample>& samples, std::size_t i) {
   const auto speed = [&](std::size_t k) { return samples[k].speed < 0.5 ? 0 : samples[k].speed; };
-  constexpr double kSlow = 3;  // mm/s
-  return speed(i) < kSlow && (i == 0 || speed(i - 1) > speed(i)) &&
-         (i + 1 == samples.size() || speed(i + 1) >= speed(i));
+  constexpr double kSlow = 3;     // mm/s
+  constexpr double kSame = 1e-6;  // mm/s, more than rounding errors
+  return speed(i) < kSlow && (i == 0 || speed(i - 1) > speed(i) + kSame) &&
+         (i + 1 == samples.size() || speed(i + 1) >= speed(i) - kSame);
 }
 
 // The way from where the arm happened to be is no part of the task.

@@ -16,6 +16,8 @@ namespace {
 constexpr double kLabel = 11;  // px
 // Places that are exactly between two numbers are rounded equally on every machine.
 constexpr double kUntie = 0.0013;  // px
+// Of two places that differ by less than rounding errors, the first one is taken.
+constexpr double kSame = 1e-6;  // px
 
 double distance_of(const Pixel& a, const Pixel& b) {
   return std::hypot(a.x - b.x, a.y - b.y);
@@ -36,7 +38,7 @@ void thin(const std::vector<Pixel>& way, std::size_t first, std::size_t last, st
     const double area = (way[last].x - way[first].x) * (way[i].y - way[first].y) -
                         (way[last].y - way[first].y) * (way[i].x - way[first].x);
     const double off = length < 0.1 ? distance_of(way[i], way[first]) : std::abs(area) / length;
-    if (off > most) {
+    if (off > most + kSame) {
       most = off;
       farthest = i;
     }
@@ -113,7 +115,7 @@ Frame LabelRoom::find(const Pixel& place, double width, double height) {
       const Frame box{place.x + right * (far * slant + width / 2) - width / 2,
                       place.y + down * (far * slant + height / 2) - height / 2, width, height};
       const double price = cost(box) + 3 * far;
-      if (price < least - 1e-6) {
+      if (price < least - kSame) {
         least = price;
         best = box;
       }
@@ -226,7 +228,7 @@ void TopicView::draw_path(base::SvgPart& out, const TopicTrace& trace, double to
   for (std::size_t i = 1; i < trace.samples.size(); ++i) {
     const TopicSample& a = trace.samples[i - 1];
     const TopicSample& b = trace.samples[i];
-    const int now = static_cast<int>(std::max(a.speed, b.speed) / top_speed * kLevels + 0.5 + 1e-6);
+    const int now = static_cast<int>(std::max(a.speed, b.speed) / top_speed * kLevels + 0.5 + kSame);
     const bool broken = jumps(a, b);
     if (now != level || broken) {
       finish();
@@ -269,7 +271,7 @@ void TopicView::draw_arrows(base::SvgPart& out, const TopicTrace& trace, double 
     }
     const double count = std::max(1.0, std::round(length.back() / 110));
     for (double n = 0.5; n < count; ++n) {
-      const auto found = std::lower_bound(length.begin(), length.end(), length.back() * n / count);
+      const auto found = std::lower_bound(length.begin(), length.end(), length.back() * n / count - kSame);
       const std::size_t i = ends[k] + static_cast<std::size_t>(found - length.begin());
       const Pixel a = place(trace.samples[i - 1]);
       const Pixel b = place(trace.samples[i]);
