@@ -51,18 +51,12 @@ class TopicRows {
       most = std::max(most, value(sample));
     }
     const auto y = [&](double v) { return top_ + height - height * (v - least) / std::max(1e-9, most - least); };
-    std::string way = fmt::format("M{} {}", base::svg_number(kLeftOfRows), base::svg_number(y(0)));
-    double last_x = 0;
-    double last = -1e9;
+    std::vector<Pixel> way{{kLeftOfRows, y(0)}};
     for (std::size_t i = 0; i < trace_.samples.size(); ++i) {
-      const double now = y(value(trace_.samples[i])) + 0.0013;
-      if (x(i) - last_x >= 1.5 || std::abs(now - last) >= 1.5 || i + 1 == trace_.samples.size()) {
-        way += fmt::format("L{} {}", base::svg_number(x(i)), base::svg_number(now));
-        last_x = x(i);
-        last = now;
-      }
+      way.push_back({x(i), y(value(trace_.samples[i])) + 0.0013});
     }
-    out_.path(way + fmt::format("L{} {}Z", base::svg_number(kRightOfRows), base::svg_number(y(0))), "class=\"curve\"");
+    way.push_back({kRightOfRows, y(0)});
+    out_.path(path_of(way) + "Z", "class=\"curve\"");
     base::svg_text(out_, kLeftOfRows - 5, top_ + 8, "end", "label", rounded(most));
     base::svg_text(out_, kLeftOfRows - 5, top_ + height + 3, "end", "label", rounded(least));
     base::svg_line(out_, kLeftOfRows, y(0), kRightOfRows, y(0), "base");

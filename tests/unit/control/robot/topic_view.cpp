@@ -51,6 +51,14 @@ void thin(const std::vector<Pixel>& way, std::size_t first, std::size_t last, st
   out.push_back(way[last]);
 }
 
+double overlap(const Frame& a, const Frame& b) {
+  const double width = std::min(a.left + a.width, b.left + b.width) - std::max(a.left, b.left);
+  const double height = std::min(a.top + a.height, b.top + b.height) - std::max(a.top, b.top);
+  return std::max(0.0, width) * std::max(0.0, height);
+}
+
+}  // namespace
+
 std::string path_of(const std::vector<Pixel>& way) {
   std::vector<Pixel> out{way.front()};
   thin(way, 0, way.size() - 1, out);
@@ -60,14 +68,6 @@ std::string path_of(const std::vector<Pixel>& way) {
   }
   return text;
 }
-
-double overlap(const Frame& a, const Frame& b) {
-  const double width = std::min(a.left + a.width, b.left + b.width) - std::max(a.left, b.left);
-  const double height = std::min(a.top + a.height, b.top + b.height) - std::max(a.top, b.top);
-  return std::max(0.0, width) * std::max(0.0, height);
-}
-
-}  // namespace
 
 LabelRoom::LabelRoom(const Frame& frame)
     : frame_(frame),
@@ -217,10 +217,11 @@ void TopicView::draw_band(base::SvgPart& out, const TopicTrace& trace, const std
 
 void TopicView::draw_path(base::SvgPart& out, const TopicTrace& trace, double top_speed) {
   constexpr double kLevels = 14;
+  std::set<std::pair<std::string, int>> drawn;  // motions that are repeated are drawn once
   std::vector<Pixel> way;
   int level = -1;
   const auto finish = [&] {
-    if (way.size() > 1) {
+    if (way.size() > 1 && drawn.emplace(path_of(way), level).second) {
       out.path(path_of(way), fmt::format("class=\"way\" stroke=\"{}\"", speed_colour(level / kLevels)));
     }
     way.clear();

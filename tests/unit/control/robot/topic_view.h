@@ -83,6 +83,8 @@ class TopicView {
   std::vector<std::pair<Pixel, std::string>> marks_;  // and what they mean
 };
 
+// Commands of an SVG path along these places, without those that are within a quarter of a pixel of the rest.
+[[nodiscard]] std::string path_of(const std::vector<Pixel>& way);
 // An output or an input on a path, as in the legend.
 void draw_signal_mark(base::SvgPart& out, const Pixel& place, bool is_output, bool is_on, const std::string& colour);
 // px of a text of this size.
