@@ -3,10 +3,18 @@
 // runs to its end with every set point within the limits, and gives what it has to give.
 #include <gmock/gmock.h>
 
+#include <ostream>
+
 #include "limit_judge.h"
 #include "topic_run.h"
 
 namespace indurop::robot {
+
+// The name of a test, instead of the bytes of its parameter.
+void PrintTo(const Topic& topic, std::ostream* out) {
+  *out << topic.name;
+}
+
 namespace {
 
 class Job_topics : public testing::TestWithParam<Topic> {};

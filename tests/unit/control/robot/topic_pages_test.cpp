@@ -3,12 +3,20 @@
 // writes the pictures, and the jobs into the pages.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <ostream>
 
 #include "tests/golden/golden.h"
 #include "topic_picture.h"
 
 namespace indurop::robot {
+
+// The name of a test, instead of the bytes of its parameter.
+void PrintTo(const PictureScript& script, std::ostream* out) {
+  *out << script.topic;
+}
+
 namespace {
 
 std::filesystem::path page(const std::string& name) {
