@@ -159,6 +159,16 @@ bool TopicView::shows(const Pixel& place) const {
          place.y <= frame_.top + frame_.height;
 }
 
+std::string TopicView::caption() const {
+  if (kind_ == Kind::OverTime) {
+    return "height over time";
+  }
+  if (kind_ == Kind::FromAbove) {
+    return axes_.across == 'x' ? "from above" : "from above, the robot is at the top";
+  }
+  return axes_.across == 'x' ? "from the side" : "from the front";
+}
+
 void TopicView::draw_axes(base::SvgPart& out) {
   const double right = frame_.left + frame_.width;
   const double bottom = frame_.top + frame_.height;
@@ -186,13 +196,8 @@ void TopicView::draw_axes(base::SvgPart& out) {
   out.text(frame_.left - 42, frame_.top + frame_.height / 2, fmt::format("{} in mm", up),
            fmt::format("text-anchor=\"middle\" class=\"label\" transform=\"rotate(-90 {} {})\"",
                        base::svg_number(frame_.left - 42), base::svg_number(frame_.top + frame_.height / 2)));
-  const std::string caption = kind_ == Kind::OverTime ? "height over time"
-                              : kind_ == Kind::FromAbove
-                                  ? axes_.across == 'x' ? "from above" : "from above, the robot is at the top"
-                              : axes_.across == 'x' ? "from the side"
-                                                    : "from the front";
-  base::svg_text(out, frame_.left + 7, frame_.top + 16, "start", "caption", caption);
-  room_.occupy(Frame{frame_.left, frame_.top, text_width(caption, 12) + 14, 22});
+  base::svg_text(out, frame_.left + 7, frame_.top + 16, "start", "caption", caption());
+  room_.occupy(Frame{frame_.left, frame_.top, text_width(caption(), 12) + 14, 22});
 }
 
 void TopicView::draw_band(base::SvgPart& out, const TopicTrace& trace, const std::string& signal,

@@ -73,6 +73,7 @@ class TopicView {
 
  private:
   void draw_arrows(base::SvgPart& out, const TopicTrace& trace, double top_speed);
+  [[nodiscard]] std::string caption() const;
   [[nodiscard]] bool up_is_down() const { return kind_ == Kind::FromAbove && axes_.across == 'y'; }
   [[nodiscard]] bool shows(const Pixel& place) const;
 
