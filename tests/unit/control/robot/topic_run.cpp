@@ -58,10 +58,10 @@ bool TopicRun::run(const std::function<bool()>& each) {
   cell_.in.service.job = 1;
   cell_.ask(Service::JobStart);
   for (period_ = 1; period_ <= 20'000; ++period_) {
+    react();
     if (!each()) {
       return false;
     }
-    react();
     if (cell_.out.done == cell_.in.service.number) {
       return true;
     }
