@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "network/dds/endpoint.h"
 
+#include <algorithm>
+
 namespace indurop::dds {
 namespace {
 
@@ -54,6 +56,10 @@ Endpoint make_reader(Handle participant, const TypeDescriptor& type, const std::
                      const Listener& listener) {
   return make(participant, type, topic,
               [&](Handle made) { return dds_create_reader(participant, made, qos.get(), listener.get()); });
+}
+
+int matched_writers(Handle reader) noexcept {
+  return static_cast<int>(std::max<dds_return_t>(0, dds_get_matched_publications(reader, nullptr, 0)));
 }
 
 }  // namespace indurop::dds

@@ -86,4 +86,7 @@ Endpoint make_writer(Handle participant, const TypeDescriptor& type, const std::
 Endpoint make_reader(Handle participant, const TypeDescriptor& type, const std::string& topic, const Qos& qos,
                      const Listener& listener = nullptr);
 
+// Returns how many writers a reader is matched with now.
+int matched_writers(Handle reader) noexcept;
+
 }  // namespace indurop::dds

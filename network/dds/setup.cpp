@@ -112,9 +112,27 @@ std::string threads(const NetworkSettings& settings) {
 
 // Receivers are quick: a quarter of the usual buffer, in pieces that hold any datagram. Memory grows until messages
 // have gone through all of it, which takes those of an agent that rests two minutes.
-constexpr const char* kSizes =
-    "<Sizing><ReceiveBufferSize>256 kB</ReceiveBufferSize>"
-    "<ReceiveBufferChunkSize>72 kB</ReceiveBufferChunkSize></Sizing>";
+std::string sizes(const NetworkSettings& settings) {
+  return fmt::format(
+      "<Sizing><ReceiveBufferSize>{} kB</ReceiveBufferSize>"
+      "<ReceiveBufferChunkSize>72 kB</ReceiveBufferChunkSize></Sizing>",
+      settings.in_flight > 0 ? 1024 : 256);
+}
+
+// Files: sockets that hold what a receiver has asked for (deploy_link.h), and no limit for senders below that. Images:
+// as much as the system permits, and a limit, so that a slow receiver is noticed instead of being sent more.
+std::string buffers(const NetworkSettings& settings) {
+  if (settings.in_flight > 0) {
+    return fmt::format(
+        "<SocketReceiveBufferSize max=\"8 MB\"/>"
+        "<Watermarks><WhcHigh>{0} B</WhcHigh><WhcLow>{1} B</WhcLow><WhcHighInit>{0} B</WhcHighInit></Watermarks>",
+        settings.in_flight, settings.in_flight / 4);
+  }
+  return settings.known_ports
+             ? "<SocketReceiveBufferSize max=\"4 MB\"/>"
+               "<Watermarks><WhcHigh>16 MB</WhcHigh><WhcLow>8 MB</WhcLow><WhcHighInit>16 MB</WhcHighInit></Watermarks>"
+             : "";
+}
 
 // A lost last value is repaired within milliseconds, not 100. Not where programs of others take part by keys: with
 // these, Fast DDS is let in less often (docs/adr/0016).
@@ -141,15 +159,11 @@ std::string quick_repair(const NetworkSettings& settings) {
 }  // namespace
 
 std::string domain_configuration(const NetworkSettings& settings, const std::string& interface_name) {
-  return network(settings, interface_name) + discovery(settings) + partitioning(settings) + threads(settings) + kSizes +
+  return network(settings, interface_name) + discovery(settings) + partitioning(settings) + threads(settings) +
+         sizes(settings) +
          // One receive thread: with more, shutdown can hang, and none could get a priority.
          "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads>" +
-         (settings.known_ports && settings.security.on() ? "" : quick_repair(settings)) +
-         // Files: sockets that hold what a receiver has asked for (deploy_link.h), and no limit for senders below that.
-         (settings.known_ports
-              ? "<SocketReceiveBufferSize max=\"4 MB\"/>"
-                "<Watermarks><WhcHigh>16 MB</WhcHigh><WhcLow>8 MB</WhcLow><WhcHighInit>16 MB</WhcHighInit></Watermarks>"
-              : "") +
+         (settings.known_ports && settings.security.on() ? "" : quick_repair(settings)) + buffers(settings) +
          "</Internal>" + (settings.security.on() ? security_configuration(settings.security, security_plugins()) : "");
 }
 
