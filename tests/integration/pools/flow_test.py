@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Chunks reach a module of another node, and a subscriber that knows only pool.idl; each byte is compared. They keep
+their age, are sent on demand and at most at the given rate, and a receiver that is stopped does not stop the writer."""
+
+import signal
+import subprocess
+import time
+
+from harness import LARGE, SMALL, Setting, expect, wait_for
+
+
+def sent_on_demand(test):
+    test.pools("send", "a", "--send", LARGE, "--send", "small")
+    wait_for(lambda: test.says("send", "sends " + SMALL), "the sender has the pools")
+    test.grows("a", "written", 10, "the writer writes")
+    wait_for(lambda: test.counts("send"), "a report")
+    expect(test.counts("send")[LARGE]["sent"] == 0, "sent without a reader")
+    user = [one for one in test.pool("a", LARGE)["users"] if one["name"] == "indurop-pools"]
+    expect(len(user) == 1 and user[0]["seen"] == 0, "chunks were read without a reader: " + str(user))
+
+
+def reach_another_node(test):
+    test.pools("receive", "b", "--receive", LARGE, "--receive", SMALL)
+    test.grows("b", "large_seen", 20, "chunks of many parts reach the other node")
+    test.grows("b", "small_seen", 20, "chunks of one part reach the other node")
+    error_ms = test.value("b", "age_error_ns") / 1e6
+    print(f"age() differs from the time since the writer began a chunk by {error_ms:.1f} ms at most")
+    # The writer needs some milliseconds between its stamp and publish(); on a busy machine more.
+    expect(error_ms < 1000, "age() does not include the transport, or more than it")
+    shown = test.pool("b", LARGE)
+    names = sorted(one["name"] for one in shown["users"])
+    expect(names == ["indurop-pools", "pools_checker"], f"users of the pool: {names}")
+
+
+def reach_a_subscriber(test, program, what):
+    for topic in ("pooltest/Flow/large", "pooltest/Flow/small"):
+        done = subprocess.run([program, str(test.domain), topic, "10"], capture_output=True, text=True, check=False,
+                              env=test.environment, timeout=60)
+        expect(done.returncode == 0, f"{what} of {topic}: code {done.returncode}: {done.stdout[-500:]}{done.stderr[-500:]}")
+
+
+def stopped_receiver(test):
+    without = test.value("a", "without_chunk")
+    test.children["receive"].send_signal(signal.SIGSTOP)
+    test.grows("a", "written", 60, "the writer goes on while the receiver is stopped")
+    expect(test.value("a", "without_chunk") == without, "the writer found no chunk while a receiver was stopped")
+    test.children["receive"].send_signal(signal.SIGCONT)
+    test.grows("b", "large_seen", 5, "chunks come again")
+
+
+def rate(test):
+    test.end("send")
+    test.pools("send", "a", "--send", LARGE, "--hz", "4")
+    wait_for(lambda: test.counts("send").get(LARGE, {}).get("sent", 0) > 0 and test.says("send", "sends " + LARGE),
+             "chunks are sent")
+    begin = time.monotonic()
+    before = test.counts("send")[LARGE]
+    wait_for(lambda: test.counts("send")[LARGE]["sent"] >= before["sent"] + 8, "chunks are sent at the rate")
+    after = test.counts("send")[LARGE]
+    took = time.monotonic() - begin
+    expect(after["sent"] - before["sent"] <= took * 4 + 2, f"{after['sent'] - before['sent']} chunks in {took:.1f} s")
+    expect(after["by_rate"] > before["by_rate"], "chunks that the rate drops are not counted")
+
+
+def main():
+    with Setting() as test:
+        test.start_node("a", [("pools_writer.exe", "50ms")])
+        test.start_node("b", [("pools_checker.exe", "10ms")])
+        sent_on_demand(test)
+        reach_another_node(test)
+        reach_a_subscriber(test, test.build / "pools_subscriber", "Cyclone DDS")
+        stopped_receiver(test)
+        rate(test)
+        expect(test.end("receive") == 143, "the exit code after SIGTERM")
+        expect(not test.wrong_chunks(), f"wrong chunks: {test.wrong_chunks()}")
+        expect(test.counts("receive")[LARGE]["received"] > 0, "the last report")
+        print(test.counts("receive"), test.counts("send"))
+
+
+main()
