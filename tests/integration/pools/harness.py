@@ -95,8 +95,9 @@ class Setting:
         self.wait_for_node(name)
 
     def wait_for_node(self, name):
-        wait_for(lambda: self.status(name).get("node", {}).get("state", "") == "running" or
-                 self.status(name).get("state", "") == "running", f"node {name} runs")
+        pid = self.children["node-" + name].pid
+        wait_for(lambda: (status := self.status(name)).get("state") == "running" and status["pid"] == pid,
+                 f"node {name} runs")
 
     def pools(self, key, name, *options):
         self.start(key, [self.programs / "indurop-pools", "--node", self.node(name), "--one-host", "--domain",
