@@ -9,6 +9,7 @@
 #include "config/xml/plant_reader.h"
 #include "core/keys/participant_keys.h"
 #include "deploy/link/link_keys.h"
+#include "doors/pools/part.h"
 #include "network/dds/security.h"
 #include "tools/client/node/mirror_view.h"
 #include "tools/client/node/run_view.h"
@@ -18,7 +19,8 @@ namespace indurop::pool_door {
 namespace {
 
 constexpr std::chrono::seconds kLease{2};
-constexpr std::size_t kInFlight = 1 << 20;
+// One part: sockets have 208 kB by default, and of a burst of more, much is lost and repeated (ADR 54).
+constexpr std::size_t kInFlight = kPartBytes;
 constexpr std::chrono::seconds kResolve{3};
 
 // Returns the keys of the node's board; none in an open plant and for a node of its own.

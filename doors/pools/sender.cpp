@@ -22,9 +22,7 @@ static_assert(kPartBytes == indurop_pool_PART_BYTES);
 constexpr milliseconds kLook{1};
 constexpr milliseconds kCheckPool{100};
 // A part that the network does not accept for this time ends its chunk.
-constexpr milliseconds kPartPatience{100};
-// Parts kept for repetition to readers that have lost some; more than may be in flight.
-constexpr int kKeptParts = 32;
+constexpr milliseconds kPartPatience{500};
 
 std::uint64_t random_session() {
   std::random_device random;
@@ -51,7 +49,7 @@ Sender::Sender(std::string node, std::string pool, std::chrono::nanoseconds leas
 Result<void, base::Problem> Sender::open(dds::Handle participant) {
   dds::QosChoice choice;
   choice.for_late_ones = false;
-  choice.depth = kKeptParts;
+  choice.depth = 0;  // in_flight limits what is kept; with a limit by number, a writer overtakes its readers
   choice.block_ns = std::chrono::nanoseconds(kPartPatience).count();
   writer_ =
       dds::make_writer(participant, indurop_pool_Part_desc, topic_, dds::make_qos(choice),

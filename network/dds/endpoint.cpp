@@ -23,7 +23,7 @@ Qos make_qos(const QosChoice& choice) {
   dds_qset_reliability(qos.get(), choice.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
                        choice.block_ns);
   dds_qset_durability(qos.get(), choice.for_late_ones ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, choice.depth);
+  dds_qset_history(qos.get(), choice.depth > 0 ? DDS_HISTORY_KEEP_LAST : DDS_HISTORY_KEEP_ALL, choice.depth);
   if (choice.lease_ns > 0) {
     dds_qset_liveliness(qos.get(), choice.written ? DDS_LIVELINESS_MANUAL_BY_TOPIC : DDS_LIVELINESS_AUTOMATIC,
                         choice.lease_ns);

@@ -25,7 +25,7 @@ struct QosChoice {
   bool reliable = true;
   std::int64_t block_ns = 0;  // maximum time that a reliable writer waits for space
   bool for_late_ones = true;  // late joiners get the samples that are kept
-  std::int32_t depth = 1;     // samples kept per key
+  std::int32_t depth = 1;  // samples kept per key; 0: all, and a reliable writer waits until readers have some of them
   std::int64_t lease_ns = 0;  // a writer silent for this time is considered lost; 0: as long as its participant lives
   bool written = false;  // silent is who writes nothing, even if DDS answers for it; it is alive again with a sample
   bool dispose_at_end = false;  // values of a writer that leaves are disposed, not only no longer alive

@@ -41,7 +41,7 @@ struct NetworkSettings {
   // one again has to read all of it; on a busy machine that makes it late for the next one.
   std::int64_t forget_ns = 0;
   int fifo_priority = 0;  // of the threads that transfer values, 0: normal scheduling
-  // Bytes that a reliable writer of large samples may have sent without an acknowledgement before it waits; 0: as
+  // Bytes that a reliable writer that keeps all samples may have sent without an acknowledgement before it waits; 0: as
   // usual.
   std::size_t in_flight = 0;
 };

@@ -126,7 +126,7 @@ std::string buffers(const NetworkSettings& settings) {
     return fmt::format(
         "<SocketReceiveBufferSize max=\"8 MB\"/>"
         "<Watermarks><WhcHigh>{0} B</WhcHigh><WhcLow>{1} B</WhcLow><WhcHighInit>{0} B</WhcHighInit></Watermarks>",
-        settings.in_flight, settings.in_flight / 4);
+        settings.in_flight, settings.in_flight / 2);
   }
   return settings.known_ports
              ? "<SocketReceiveBufferSize max=\"4 MB\"/>"

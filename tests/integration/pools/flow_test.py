@@ -3,6 +3,8 @@
 """Chunks reach a module of another node, and a subscriber that knows only pool.idl; each byte is compared. They keep
 their age, are sent on demand and at most at the given rate, and a receiver that is stopped does not stop the writer."""
 
+import os
+import shutil
 import signal
 import subprocess
 import time
@@ -49,15 +51,29 @@ def stopped_receiver(test):
     test.grows("b", "large_seen", 5, "chunks come again")
 
 
+def lossy_network(test):
+    """One packet in twenty is lost, of parts, acknowledgements and all others."""
+    if not os.environ.get("POOLS_TEST_NETWORK") or not shutil.which("iptables"):
+        print("not tested: a network that loses packets (root and iptables are needed)")
+        return
+    rule = ["-p", "udp", "-m", "statistic", "--mode", "random", "--probability", "0.05", "-j", "DROP"]
+    if subprocess.run(["iptables", "-A", "INPUT", *rule], capture_output=True, check=False).returncode != 0:
+        print("not tested: a network that loses packets (iptables refuses the rule)")
+        return
+    for variable in ("large_seen", "small_seen"):
+        test.grows("b", variable, 20, "chunks come although packets are lost")
+    subprocess.run(["iptables", "-D", "INPUT", *rule], check=True)
+
+
 def rate(test):
     test.end("send")
-    test.pools("send", "a", "--send", LARGE, "--hz", "4")
-    wait_for(lambda: test.counts("send").get(LARGE, {}).get("sent", 0) > 0 and test.says("send", "sends " + LARGE),
+    test.pools("rate", "a", "--send", LARGE, "--hz", "4")
+    wait_for(lambda: test.counts("rate").get(LARGE, {}).get("sent", 0) > 0 and test.says("rate", "sends " + LARGE),
              "chunks are sent")
     begin = time.monotonic()
-    before = test.counts("send")[LARGE]
-    wait_for(lambda: test.counts("send")[LARGE]["sent"] >= before["sent"] + 8, "chunks are sent at the rate")
-    after = test.counts("send")[LARGE]
+    before = test.counts("rate")[LARGE]
+    wait_for(lambda: test.counts("rate")[LARGE]["sent"] >= before["sent"] + 8, "chunks are sent at the rate")
+    after = test.counts("rate")[LARGE]
     took = time.monotonic() - begin
     expect(after["sent"] - before["sent"] <= took * 4 + 2, f"{after['sent'] - before['sent']} chunks in {took:.1f} s")
     expect(after["by_rate"] > before["by_rate"], "chunks that the rate drops are not counted")
@@ -71,11 +87,12 @@ def main():
         reach_another_node(test)
         reach_a_subscriber(test, test.build / "pools_subscriber", "Cyclone DDS")
         stopped_receiver(test)
+        lossy_network(test)
         rate(test)
         expect(test.end("receive") == 143, "the exit code after SIGTERM")
         expect(not test.wrong_chunks(), f"wrong chunks: {test.wrong_chunks()}")
         expect(test.counts("receive")[LARGE]["received"] > 0, "the last report")
-        print(test.counts("receive"), test.counts("send"))
+        print(test.counts("receive"), test.counts("rate"))
 
 
 main()

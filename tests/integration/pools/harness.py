@@ -84,7 +84,7 @@ class Setting:
     def configuration(self, modules):
         text = "".join(f"<module><filename>{self.build}/{file}</filename><moduletype>process</moduletype>"
                        f"<operationtype>periodic</operationtype><period>{period}</period><priority>{number + 1}</priority>"
-                       "</module>" for number, (file, period) in enumerate(modules))
+                       "<restart delay=\"10ms\" max=\"1000\"/></module>" for number, (file, period) in enumerate(modules))
         file = self.folder / (modules[0][0] + ".xml")
         file.write_text(f"<root>{text}</root>")
         return file

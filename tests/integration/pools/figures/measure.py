@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The figures of docs/adr/0054: age of images of 30 Hz on another node when its module (1 ms) sees them, and the CPU
+share of both programs. measure.py PROGRAMS MODULES [SECONDS]"""
+
+import os
+import pathlib
+import sys
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1]))
+from harness import Setting, wait_for  # noqa: E402
+
+SECONDS = float(sys.argv[3]) if len(sys.argv) > 3 else 10
+
+
+def cpu_s(pid):
+    fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def measure(test, name):
+    pool = "pooltest::Figures::" + name
+    test.pools("send-" + name, "a", "--send", pool)
+    test.pools("receive-" + name, "b", "--receive", pool)
+    ages = test.folder / ("ages-" + name)
+    wait_for(lambda: ages.read_text().count("\n") > 10, "images come")
+    pids = [test.children[one + name].pid for one in ("send-", "receive-")]
+    skipped, before, begin = ages.read_text().count("\n"), [cpu_s(pid) for pid in pids], time.monotonic()
+    time.sleep(SECONDS)
+    took = time.monotonic() - begin
+    shares = [100 * (cpu_s(pid) - first) / took for pid, first in zip(pids, before)]
+    found = sorted(int(line) / 1e6 for line in ages.read_text().splitlines()[skipped:])
+    print(f"{name}: {len(found) / took:.1f} Hz, age p50 {found[len(found) // 2]:.1f} ms, p99 "
+          f"{found[len(found) * 99 // 100]:.1f} ms, CPU of a core: sender {shares[0]:.1f} %, receiver {shares[1]:.1f} %")
+    print(" ", test.counts("send-" + name)[pool], test.counts("receive-" + name)[pool])
+    test.end("send-" + name)
+    test.end("receive-" + name)
+
+
+def main():
+    with Setting() as test:
+        test.start_node("a", [("pools_camera.exe", "33333us")])
+        test.start_node("b", [("pools_eye.exe", "1ms")])
+        for name in ("vga", "hd", "colour"):
+            measure(test, name)
+
+
+main()
