@@ -169,7 +169,7 @@ void Sender::run(const std::atomic<bool>& stop) {
   while (!stop.load()) {
     follow_pool();
     if (!pool_.entered() || counts_.readers.load() == 0) {
-      last_ = 0;  // what is not sent to anybody is not counted
+      last_ = 0;  // without a reader, nothing is dropped
       (void)wake_.wait_until(next_check_);
       continue;
     }

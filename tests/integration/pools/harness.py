@@ -41,6 +41,7 @@ class Setting:
     def __init__(self):
         own_network()
         self.programs, self.build = (pathlib.Path(one).resolve() for one in sys.argv[1:3])
+        self.source = pathlib.Path(__file__).parents[3]
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="pools-"))
         self.domain = 1 + os.getpid() % 200
         self.children = {}

@@ -19,7 +19,7 @@ std::FILE* file_of(const char* pool) {
 }
 
 template <class Pool>
-void look_at(const Pool& pool, std::FILE* file) {
+void read_new(const Pool& pool, std::FILE* file) {
   while (const auto image = pool.next()) {
     (void)std::fprintf(file, "%" PRId64 "\n", static_cast<std::int64_t>(image.age().count()));
     (void)std::fflush(file);
@@ -34,8 +34,8 @@ int main() {
   std::FILE* const colour_file = file_of("colour");
   irp::initPeriodExe();
   while (irp::waitPeriod()) {
-    look_at(vga, vga_file);
-    look_at(hd, hd_file);
-    look_at(colour, colour_file);
+    read_new(vga, vga_file);
+    read_new(hd, hd_file);
+    read_new(colour, colour_file);
   }
 }

@@ -37,7 +37,7 @@ std::int64_t mark(std::uint64_t session, std::uint64_t number) {
   return static_cast<std::int64_t>(session * 1'000'000 + number);
 }
 
-// A pool with `size` chunks that nobody reads.
+// A pool with `size` chunks and no reader.
 class Places final : public ChunkPlaces {
  public:
   explicit Places(std::size_t size) : memory_(size), taken_(size) {}
@@ -133,65 +133,73 @@ void expect_whole(const Places& places) {
   }
 }
 
+struct Sent {
+  std::uint64_t session = 0;
+  std::uint64_t number = 0;
+  std::uint64_t index = 0;
+};
+
+// A number below `end`.
+unsigned below(std::mt19937& random, unsigned end) {
+  return static_cast<unsigned>(random() % end);
+}
+
+// What senders send, each in its order, mixed with that of the others; some of it twice, and moved by up to `disorder`.
+std::vector<Sent> traffic(std::mt19937& random, unsigned sessions, unsigned repetition_percent, unsigned disorder) {
+  std::vector<Sent> network;
+  std::map<std::uint64_t, Sent> next;
+  for (unsigned i = 0; i < 400; ++i) {
+    const std::uint64_t session = 1 + below(random, sessions);
+    Sent& sent = next.try_emplace(session, Sent{session, 1, 0}).first->second;
+    network.insert(network.end(), below(random, 100) < repetition_percent ? 2 : 1, sent);
+    sent.index = (sent.index + 1) % parts_of(kBytes);
+    sent.number += sent.index == 0 ? 1 + below(random, 3) : 0;
+  }
+  for (std::size_t i = 0; disorder > 0 && i < network.size(); ++i) {
+    std::swap(network[i], network[std::min(network.size() - 1, i + below(random, disorder))]);
+  }
+  return network;
+}
+
 // Random networks: some lose much, some repeat, some change the order of parts over more than a chunk.
 TEST(Assembler, Publishes_whole_chunks_as_the_model_does) {
   std::uint64_t all = 0;
   std::uint64_t lost = 0;
   for (unsigned seed = 1; seed <= 30; ++seed) {
     std::mt19937 random(seed);
-    const auto below = [&random](unsigned end) { return static_cast<unsigned>(random() % end); };
-    const std::size_t room = 1 + below(4);
-    const unsigned sessions = 1 + below(5);
-    const unsigned loss = below(30);        // percent
-    const unsigned repetition = below(30);  // percent
-    const unsigned disorder = below(7);     // parts
+    const std::size_t room = 1 + below(random, 4);
+    const unsigned loss = below(random, 30);  // percent
+    const std::vector<Sent> network = traffic(random, 1 + below(random, 5), below(random, 30), below(random, 7));
     Places places(room);
     Model model(room);
-    {
-      Assembler assembler(places, kBytes);
-      struct Sent {
-        std::uint64_t session, number, index;
-      };
-      // What each sender sends in its order, mixed with that of the others.
-      std::vector<Sent> network;
-      std::map<std::uint64_t, Sent> next;
-      std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<std::byte>> made;
-      for (unsigned i = 0; i < 400; ++i) {
-        const std::uint64_t session = 1 + below(sessions);
-        Sent& sent = next.try_emplace(session, Sent{session, 1, 0}).first->second;
-        for (unsigned times = below(100) < repetition ? 2 : 1; times > 0; --times) {
-          network.push_back(sent);
+    Assembler assembler(places, kBytes);
+    std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<std::byte>> made;
+    Assembler::Time now{};
+    for (const Sent& sent : network) {
+      now += below(random, 50) == 0 ? Assembler::kPatience : milliseconds(1);
+      assembler.give_up_silent(now);
+      model.silence(now);
+      if (below(random, 100) >= loss) {
+        auto& whole = made[{sent.session, sent.number}];
+        if (whole.empty()) {
+          whole = content(sent.session, sent.number);
         }
-        sent.index = (sent.index + 1) % parts_of(kBytes);
-        sent.number += sent.index == 0 ? 1 + below(3) : 0;
+        assembler.add(part_of(whole, sent.session, sent.number, sent.index), now);
+        model.add(sent.session, sent.number, sent.index, now);
       }
-      for (std::size_t i = 0; disorder > 0 && i < network.size(); ++i) {
-        std::swap(network[i], network[std::min(network.size() - 1, i + below(disorder))]);
-      }
-      Assembler::Time now{};
-      for (const Sent& sent : network) {
-        now += below(50) == 0 ? Assembler::kPatience : milliseconds(1);
-        assembler.give_up_silent(now);
-        model.silence(now);
-        if (below(100) >= loss) {
-          auto& whole = made[{sent.session, sent.number}];
-          whole = whole.empty() ? content(sent.session, sent.number) : std::move(whole);
-          assembler.add(part_of(whole, sent.session, sent.number, sent.index), now);
-          model.add(sent.session, sent.number, sent.index, now);
-        }
-        ASSERT_EQ(places.taken(), model.filling());
-      }
-      std::vector<std::int64_t> published;
-      for (const auto& one : places.published) {
-        published.push_back(one.first);
-      }
-      ASSERT_EQ(published, model.published) << "seed " << seed;
-      ASSERT_EQ(assembler.counts().complete, model.published.size());
-      ASSERT_EQ(assembler.counts().incomplete, model.incomplete);
-      ASSERT_EQ(assembler.counts().no_place, model.no_place);
-      all += model.published.size();
-      lost += model.incomplete;
+      ASSERT_EQ(places.taken(), model.filling());
     }
+    std::vector<std::int64_t> published;
+    for (const auto& one : places.published) {
+      published.push_back(one.first);
+    }
+    ASSERT_EQ(published, model.published) << "seed " << seed;
+    ASSERT_EQ(assembler.counts().complete, model.published.size());
+    ASSERT_EQ(assembler.counts().incomplete, model.incomplete);
+    ASSERT_EQ(assembler.counts().no_place, model.no_place);
+    all += model.published.size();
+    lost += model.incomplete;
+    assembler.give_up_all();
     ASSERT_EQ(places.taken(), 0U) << "the end gives everything up";
     expect_whole(places);
   }
