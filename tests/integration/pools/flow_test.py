@@ -86,6 +86,8 @@ def main():
         sent_on_demand(test)
         reach_another_node(test)
         reach_a_subscriber(test, test.build / "pools_subscriber", "Cyclone DDS")
+        if (test.build / "pools_fastdds_subscriber").exists():
+            reach_a_subscriber(test, test.build / "pools_fastdds_subscriber", "Fast DDS")
         stopped_receiver(test)
         lossy_network(test)
         rate(test)

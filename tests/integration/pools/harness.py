@@ -50,6 +50,7 @@ class Setting:
                             "INDUROP_STATE_DIR": str(self.folder / "state"),
                             "CYCLONEDDS_URI": "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"true\"/>"
                                               "</Interfaces></General>"}
+        self.environment["FASTRTPS_DEFAULT_PROFILES_FILE"] = str(self.source / "examples/external/loopback_fastdds.xml")
         self.environment.pop("INDUROP_NODE", None)
         self.random = random.Random(int(os.environ.get("POOLS_TEST_SEED", "1")))
 
