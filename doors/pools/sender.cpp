@@ -143,26 +143,27 @@ void Sender::send_newest(const std::atomic<bool>& stop) {
     return;
   }
   // Who joins gets the newest chunk, however old it is; others have it already.
-  if (held->number > last_ || has_new_reader_.exchange(false)) {
-    has_new_reader_.store(false);
-    if (held->number > last_) {
-      count_passed_over(held->number);
-    }
-    if (send(*held, stop)) {
-      counts_.sent += 1;
-      counts_.bytes += pool_.shape().chunk_bytes;
-    } else {
-      counts_.abandoned += 1;
-    }
-    last_ = held->number;
-    next_chunk_ = begin + least_;
-    const auto after = pool_.latest();
-    newest_ = after ? after->number : last_;
-    if (after) {
-      pool_.release(*after);
-    }
+  const bool is_new = held->number > last_;
+  const bool has_new_reader = has_new_reader_.exchange(false);
+  if (!is_new && !has_new_reader) {
+    pool_.release(*held);
+    return;
   }
+  if (is_new) {
+    count_passed_over(held->number);
+  }
+  const bool whole = send(*held, stop);
   pool_.release(*held);
+  counts_.sent += whole ? 1 : 0;
+  counts_.bytes += whole ? pool_.shape().chunk_bytes : 0;
+  counts_.abandoned += whole ? 0 : 1;
+  last_ = held->number;
+  next_chunk_ = begin + least_;
+  newest_ = last_;
+  if (const auto after = pool_.latest()) {
+    newest_ = after->number;
+    pool_.release(*after);
+  }
 }
 
 void Sender::run(const std::atomic<bool>& stop) {

@@ -45,7 +45,9 @@ std::vector<Publications::News> Publications::take() {
       if (!info.valid || !info.alive) {
         news.push_back({endpoint, std::nullopt});
       } else if (participant != own_ && info_of_endpoint.topic_name != nullptr) {
-        news.push_back({endpoint, Publication{participant, info_of_endpoint.topic_name, info.instance}});
+        news.push_back({endpoint, Publication{participant, info_of_endpoint.topic_name,
+                                              info_of_endpoint.type_name == nullptr ? "" : info_of_endpoint.type_name,
+                                              info.instance}});
       }
     }
     (void)dds_return_loan(reader_.get(), samples.data(), count);

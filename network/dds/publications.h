@@ -22,6 +22,7 @@ namespace indurop::dds {
 struct Publication {
   Guid participant{};
   std::string topic;
+  std::string type;             // its name
   InstanceHandle instance = 0;  // in the reader that stores the announcement
 };
 

@@ -34,8 +34,10 @@ std::string name_of_topic(const std::string& topic) {
   return name;
 }
 
-bool is_own_topic(std::string_view topic) {
-  return topic.starts_with("indurop/") || topic.starts_with("DCPS");
+// No variables: the platform's own topics, and pools.
+bool is_own_topic(const dds::Publication& publication) {
+  return publication.topic.starts_with("indurop/") || publication.topic.starts_with("DCPS") ||
+         publication.type == "indurop::pool::Part";
 }
 
 }  // namespace
@@ -107,7 +109,7 @@ void RemotePlane::Impl::take_publications() {
       continue;
     }
     seen_ns.emplace(news.publication->participant, rt::now_ns());
-    if (!is_own_topic(news.publication->topic)) {
+    if (!is_own_topic(*news.publication)) {
       published[news.endpoint] = std::move(*news.publication);
     }
   }

@@ -42,6 +42,19 @@ def reach_a_subscriber(test, program, what):
         expect(done.returncode == 0, f"{what} of {topic}: code {done.returncode}: {done.stdout[-500:]}{done.stderr[-500:]}")
 
 
+def late_subscriber(test):
+    """Who subscribes when nothing is written any more gets the newest chunk."""
+    writer = [one["pid"] for one in test.pool("a", LARGE)["users"] if one["name"] == "pools_writer"][0]
+    os.kill(writer, signal.SIGSTOP)
+    time.sleep(0.5)  # what is on its way arrives
+    before = test.pool("a", LARGE)["published"]
+    done = subprocess.run([test.build / "pools_subscriber", str(test.domain), "pooltest/Flow/large", "1"],
+                          capture_output=True, text=True, check=False, env=test.environment, timeout=60)
+    expect(test.pool("a", LARGE)["published"] == before, "the writer was not stopped")
+    os.kill(writer, signal.SIGCONT)
+    expect(done.returncode == 0, f"a late subscriber: code {done.returncode}: {done.stdout}{done.stderr}")
+
+
 def stopped_receiver(test):
     without = test.value("a", "without_chunk")
     test.children["receive"].send_signal(signal.SIGSTOP)
@@ -88,6 +101,7 @@ def main():
         reach_a_subscriber(test, test.build / "pools_subscriber", "Cyclone DDS")
         if (test.build / "pools_fastdds_subscriber").exists():
             reach_a_subscriber(test, test.build / "pools_fastdds_subscriber", "Fast DDS")
+        late_subscriber(test)
         stopped_receiver(test)
         lossy_network(test)
         rate(test)
