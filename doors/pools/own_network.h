@@ -13,8 +13,8 @@
 namespace indurop::pool_door {
 
 // The settings of the command line, completed: with the keys of the node's board if its plant has keys and none were
-// given. Errors: the plant has keys, or may have some, and they cannot be used. Without them, any program in the network
-// would see its images.
+// given. Errors: the plant has keys, or may have some, and they cannot be used. Without them, any program in the
+// network would see its images.
 Result<dds::NetworkSettings, tools::Failure> own_network(const DoorOptions& options, const std::string& node);
 
 }  // namespace indurop::pool_door
