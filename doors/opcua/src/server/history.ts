@@ -173,11 +173,12 @@ export class History {
     let next = place?.next ?? null;
     let skip = place?.skip ?? 0;
     for (let pages = 0; pages < PAGES; pages++) {
-      const page = await this.page(one, from_ns, to_ns, wanted.most, next);
+      const room = wanted.most - entries.length;
+      // A page that is read again has to reach beyond what was sent of it, however few the client asks for now.
+      const page = await this.page(one, from_ns, to_ns, Math.min(skip + room, MOST_VALUES), next);
       let more = entries_of(page);
       if (wanted.bounds && next === null) more = this.with_begin(page, more, from_ns);
       if (wanted.bounds && page.next === null && to_ns !== null) more.push(await this.end_bound(one, to_ns));
-      const room = wanted.most - entries.length;
       entries.push(...more.slice(skip, skip + room));
       if (more.length - skip > room) return { entries, place: { node, next, skip: skip + room } };
       if (page.next === null) return { entries, place: null };
