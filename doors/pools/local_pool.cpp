@@ -20,7 +20,16 @@ bool LocalPool::fail(std::string problem) {
   return false;
 }
 
-bool LocalPool::enter() {
+bool LocalPool::enter(const base::Log& log) {
+  const bool entered = try_enter();
+  if (!entered && problem_ != reported_) {
+    log.info("waits: {}", problem_);
+  }
+  reported_ = problem_;
+  return entered;
+}
+
+bool LocalPool::try_enter() {
   auto store = vars::Store::attach(node_, vars::Mode::ReadOnly);
   if (!store) {
     return fail(tools::explain_open_error(store.error(), node_, false));

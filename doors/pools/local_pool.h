@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/log.h"
 #include "core/rt/clock.h"
 #include "store/pools/pool.h"
 #include "store/vars/store.h"
@@ -26,13 +27,12 @@ class LocalPool {
   // Returns true if the pool is the one that the node has now, or if the node does not run and left it.
   [[nodiscard]] bool is_current() const;
   // Takes a seat in the pool that the node has now; must not have one. Returns false if that is impossible at the
-  // moment: problem() says why.
-  bool enter();
+  // moment; the log says why, once for each reason.
+  bool enter(const base::Log& log);
   // Frees the seat, with the chunks in its hand.
   void leave() noexcept;
 
   [[nodiscard]] bool entered() const noexcept { return seat_.has_value(); }
-  [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
   [[nodiscard]] const std::string& node() const noexcept { return node_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
 
@@ -49,11 +49,13 @@ class LocalPool {
   void discard(std::uint32_t chunk) noexcept { pool_->chunks().discard(*seat_, chunk); }
 
  private:
+  bool try_enter();
   bool fail(std::string problem);
 
   std::string node_;
   std::string name_;
-  std::string problem_;
+  std::string problem_;   // of the last attempt; empty: none
+  std::string reported_;  // the last problem in the log
   std::string type_;
   pools::Shape shape_;
   std::optional<vars::Store> store_;

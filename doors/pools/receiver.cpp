@@ -101,14 +101,9 @@ void Receiver::follow_pool() {
     return;
   }
   leave_pool();
-  if (!pool_.enter()) {
-    if (said_ != pool_.problem()) {
-      log_.info("waits: {}", pool_.problem());
-    }
-    said_ = pool_.problem();
+  if (!pool_.enter(log_)) {
     return;
   }
-  said_.clear();
   refused_.clear();  // the node may have another type now
   assembler_.emplace(static_cast<ChunkPlaces&>(*this), pool_.shape().chunk_bytes);
   log_.info("receives topic {} into {} of node {}", topic_, pool_.name(), pool_.node());

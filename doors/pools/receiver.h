@@ -54,7 +54,6 @@ class Receiver final : private ChunkPlaces {
   LocalPool pool_;
   base::Log log_;
   std::string topic_;
-  std::string said_;  // the last problem of the pool that was reported
   rt::MonoTime next_check_{};
   std::optional<Assembler> assembler_;  // while the pool is entered
   AssemblyCounts before_;               // of earlier ones

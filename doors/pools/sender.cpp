@@ -87,14 +87,9 @@ void Sender::follow_pool() {
     return;
   }
   pool_.leave();
-  if (!pool_.enter()) {
-    if (said_ != pool_.problem()) {
-      log_.info("waits: {}", pool_.problem());
-    }
-    said_ = pool_.problem();
+  if (!pool_.enter(log_)) {
     return;
   }
-  said_.clear();
   session_ = random_session();  // numbers may begin again
   last_ = 0;
   log_.info("sends {} of node {} as topic {}", pool_.name(), pool_.node(), topic_);

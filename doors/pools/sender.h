@@ -57,7 +57,6 @@ class Sender {
   std::chrono::nanoseconds least_;
   base::Log log_;
   std::string topic_;
-  std::string said_;  // the last problem of the pool that was reported
   rt::MonoTime next_check_{};
   rt::MonoTime next_chunk_{};
   std::uint64_t session_ = 0;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <iterator>
 #include <sstream>
 #include <utility>
@@ -16,7 +15,6 @@
 #include "control/robot/files/read_bodies.h"
 #include "control/robot/files/solve_points.h"
 #include "control/robot/kinematics/abilities.h"
-#include "control/robot/kinematics/tool_set.h"
 #include "control/robot/kinematics/workspace.h"
 #include "core/base/read_file.h"
 
@@ -69,23 +67,6 @@ std::uint64_t mark_of(const std::string& urdf, const std::vector<JobFile>& jobs)
     mark = mark * 31 + abi::fnv1a64(job.text.data(), job.text.size());
   }
   return mark;
-}
-
-// Checks points given as joint angles against the arm.
-Diagnostics check_points(const JobBook& book, const Arm& arm) {
-  Diagnostics errors;
-  for (const Point& point : book.points) {
-    const int axis = point.target.is_pose ? -1 : arm.beyond_limits(point.target.joints);
-    if (axis >= 0) {
-      std::ostringstream text;
-      const Axis& a = arm.axis(axis);
-      const double unit = a.slides() ? 0.001 : kPi / 180;
-      text << "point '" << point.name << "': joint " << axis + 1 << " is at " << point.target.joints[axis] / unit
-           << (a.slides() ? " mm" : " degrees") << ", its limits are " << a.lower / unit << " to " << a.upper / unit;
-      errors.push_back(error(point.file, point.place, text.str()));
-    }
-  }
-  return errors;
 }
 
 Diagnostics check_workspace(const FileNames& names, const JobBook& book, const Arm& arm, bool placed) {

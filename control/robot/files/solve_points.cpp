@@ -71,16 +71,19 @@ std::string wrong_axis(const Arm& arm, Held held) {
   return "";
 }
 
+// Returns "is at 200 degrees, its limits are -170 to 170".
+std::string value_and_limits(const Axis& axis, double value) {
+  const double unit = axis.slides() ? 0.001 : kPi / 180;
+  std::ostringstream text;
+  text << "is at " << value / unit << (axis.slides() ? " mm" : " degrees") << ", its limits are " << axis.lower / unit
+       << " to " << axis.upper / unit;
+  return text.str();
+}
+
 std::string beyond_axis(const Arm& arm, int axis, double value) {
   const Axis& a = arm.axis(axis);
-  if (a.endless || (value >= a.lower && value <= a.upper)) {
-    return "";
-  }
-  const double unit = a.slides() ? 0.001 : kPi / 180;
-  std::ostringstream text;
-  text << "AXIS " << axis + 1 << " is at " << value / unit << (a.slides() ? " mm" : " degrees") << ", its limits are "
-       << a.lower / unit << " to " << a.upper / unit;
-  return text.str();
+  const bool beyond = !a.endless && !(value >= a.lower && value <= a.upper);
+  return beyond ? "AXIS " + std::to_string(axis + 1) + " " + value_and_limits(a, value) : "";
 }
 
 // Returns what is wrong with AXIS of a point.
@@ -116,6 +119,19 @@ std::string wrong_pose(const Arm& arm, const Inverse& inverse, const Target& tar
 bool is_known(const Point& point, const JobBook& book, bool placed) {
   const auto taught = [](const Tool& tool) { return tool.is_taught; };
   return placed || (point.frame < 0 && std::none_of(book.tools.begin(), book.tools.end(), taught));
+}
+
+Diagnostics check_points(const JobBook& book, const Arm& arm) {
+  Diagnostics errors;
+  for (const Point& point : book.points) {
+    const int axis = point.target.is_pose ? -1 : arm.beyond_limits(point.target.joints);
+    if (axis >= 0) {
+      errors.push_back(point_error(point.file, point.place,
+                                   "point '" + point.name + "': joint " + std::to_string(axis + 1) + " " +
+                                       value_and_limits(arm.axis(axis), point.target.joints[axis])));
+    }
+  }
+  return errors;
 }
 
 // The tool at a point is known only when the job runs; points that no tool reaches are reported now. The posture of an

@@ -13,6 +13,8 @@ namespace indurop::robot {
 
 // Returns whether the place of a point is known while the files are read. `placed`: tools and frames have been found.
 bool is_known(const Point& point, const JobBook& book, bool placed);
+// Returns errors for points of joint values that are beyond the limits of the arm.
+std::vector<base::Diagnostic> check_points(const JobBook& book, const Arm& arm);
 // Finds how the arm may hold its tools at points that are poses, and notes this in the book where it takes long.
 // Returns errors and warnings for those that are not reached.
 std::vector<base::Diagnostic> solve_points(JobBook& book, const Arm& arm, bool placed);

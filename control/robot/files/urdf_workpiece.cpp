@@ -59,7 +59,7 @@ void UrdfReader::turn_workpiece(const urdf::LinkConstSharedPtr& workpiece) {
     Link& link = links_[i];
     link.direction = to_base.orientation * (i < arm_links ? link.direction : Vec3(-link.direction));
     link.point = to_base.position + to_base.orientation * link.point;
-    if (driven_by_.empty() || driven_by_[i] == nullptr) {
+    if (driven_by_[i] == nullptr) {
       axes_[at(link.axis)].direction = link.direction;
       axes_[at(link.axis)].point = link.point;
     }
