@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "job_signals.h"
+#include "robot_space.h"
 
 // A second robot of the node is this file again, built with the namespace of its own variables: ROBOT_GROUP=PLC_ROBOT2.
 #ifndef ROBOT_GROUP
@@ -22,11 +23,14 @@
 #endif
 using namespace ROBOT_GROUP;
 namespace robot = indurop::robot;
+#define TEXT_OF(name) #name
+#define NAME_OF(group) TEXT_OF(group)
 
 namespace {
 
 std::unique_ptr<robot::Controller> plcRobot;
 std::unique_ptr<JobSignals> signals;
+std::unique_ptr<RobotSpace> space;
 robot::Inputs in;
 robot::Outputs out;
 
@@ -288,6 +292,7 @@ void write_axis_states() {
 
 void start() {
   robot::Settings settings;
+  settings.name = NAME_OF(ROBOT_GROUP);
   settings.urdf = irp::file_beside_config(irp::property("urdf", "robot.urdf"));
   settings.jobs = files(irp::property("jobs", ""));
   settings.period = irp::period();
@@ -311,6 +316,7 @@ void start() {
                              std::to_string(MAX_JOINTS + 1) + "_OUT");
   }
   signals = std::make_unique<JobSignals>(plcRobot->signals());
+  space = std::make_unique<RobotSpace>(settings.name, settings.other_robots);
   ROBOT_MODULE_STATE.eState = ROBOT_GROUP_DISABLED;
   for (std::size_t k = 0; k < 6; k++) {
     ROBOT_MODULE_STATE.dCurJoint[k] = 0.0;
@@ -318,9 +324,11 @@ void start() {
 }
 
 void run() {
+  in.tick = irp::tick();
   read_axes();
   read_requests();
   read_commands();
+  space->read(in);
   plcRobot->step(in, *signals, out);
   if (out.edit_done) {
     msgRobotServiceEditNum = 0;
@@ -329,6 +337,7 @@ void run() {
   write_state();
   write_arm();
   write_job();
+  space->write(out);
   write_question();
   write_axis_states();
   write_answers();

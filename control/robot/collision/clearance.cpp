@@ -61,17 +61,17 @@ Clearance::Clearance(const Arm& arm, const Bodies& bodies) : arm_(arm), margin_(
   }
   for (const LinkBody& link : bodies.links) {
     for (const Solid& solid : link.solids) {
-      add("link '" + link.name + "'", {0, link.joint, 0, solid});
+      add("link '" + link.name + "'", {0, link.joint, 0, solid, {}});
     }
   }
   for (const NamedSolid& tool : bodies.tools) {
     Solid solid = tool.solid;
     solid.place = arm.home() * solid.place;
-    add("tool '" + tool.name + "'", {0, end, tool.tool, solid});
+    add("tool '" + tool.name + "'", {0, end, tool.tool, solid, {}});
   }
   first_zone_ = parts_.size();
   for (const NamedSolid& zone : bodies.zones) {
-    add("zone '" + zone.name + "'", {0, arm.world_joint(), 0, zone.solid});
+    add("zone '" + zone.name + "'", {0, arm.world_joint(), 0, zone.solid, {}});
   }
   connect(bodies.ignored);
 }
@@ -80,6 +80,7 @@ void Clearance::add(const std::string& name, const Part& part) {
   const auto found = std::find(names_.begin(), names_.end(), name);
   parts_.push_back(part);
   parts_.back().body = static_cast<int>(found - names_.begin());
+  parts_.back().lever = lever_of(arm_, part.solid, 0, part.joint);
   if (found == names_.end()) {
     names_.push_back(name);
   }
@@ -134,11 +135,14 @@ void Clearance::place(const Joints& q, Places& places) const noexcept {
   ChainFrames frames;
   arm_.frames(q, frames);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const Part& part = parts_[i];
-    const ChainFrame& frame = frames[index(part.joint)];
-    places[i] = {part.solid.kind, part.solid.half, frame.turn * part.solid.place.position + frame.shift,
-                 frame.turn * part.solid.place.orientation.toRotationMatrix()};
+    places[i] = placed(parts_[i], frames);
   }
+}
+
+PlacedSolid Clearance::placed(const Part& part, const ChainFrames& frames) noexcept {
+  const ChainFrame& frame = frames[index(part.joint)];
+  return {part.solid.kind, part.solid.half, frame.turn * part.solid.place.position + frame.shift,
+          frame.turn * part.solid.place.orientation.toRotationMatrix()};
 }
 
 void Clearance::name(int pair, char* to, std::size_t size) const noexcept {

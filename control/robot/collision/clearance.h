@@ -20,6 +20,8 @@ class Clearance {
     int joint = 0;  // number of moving joints of the chain that move it
     int tool = 0;   // only while this tool is held; 0: always
     Solid solid;    // in the base's frame, joints at zero
+    // m that a point of it moves at most when an axis moves by 1 rad (or m).
+    Joints lever = Joints::Zero();
   };
   struct Pair {
     int a = 0, b = 0;  // parts; the joints between them are those of `b` after `a`
@@ -39,7 +41,12 @@ class Clearance {
   // m; anything nearer counts as touching.
   [[nodiscard]] double margin() const noexcept { return margin_; }
 
-  // Computes where the parts are. `places` has one entry for each. Real-time safe, like all functions below.
+  // Returns whether a part belongs to the arm or to a tool, not to a zone.
+  [[nodiscard]] bool is_of_arm(std::size_t part) const noexcept { return part < first_zone_; }
+  // Computes the frames of the arm's joints, and where a part is. Real-time safe, like all functions below.
+  void frames(const Joints& q, ChainFrames& frames) const noexcept { arm_.frames(q, frames); }
+  [[nodiscard]] static PlacedSolid placed(const Part& part, const ChainFrames& frames) noexcept;
+  // Computes where the parts are. `places` has one entry for each.
   void place(const Joints& q, Places& places) const noexcept;
   // Returns a lower bound of the distance between the two, less the margin, in m.
   [[nodiscard]] double least(const Pair& pair, const Places& places) const noexcept {

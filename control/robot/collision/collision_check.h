@@ -91,9 +91,9 @@ class ClearWalk {
   [[nodiscard]] bool done() const noexcept { return !(place_ < length_); }
   [[nodiscard]] double place() const noexcept { return place_; }
   // Takes one step, or none if it has to be shorter. `at(place, near, q)`: the axes at a place; false if there are
-  // none.
-  template <class At>
-  CollisionCheck::Step step(CollisionCheck& way, const At& at) noexcept {
+  // none. `way`: a CollisionCheck, or another class with at() and next().
+  template <class Way, class At>
+  CollisionCheck::Step step(Way& way, const At& at) noexcept {
     if (is_lost()) {
       return CollisionCheck::Step::Lost;
     }
@@ -110,8 +110,8 @@ class ClearWalk {
   }
   // The same on a path whose joints are known at each place, `at(place)`, and so is how far they travel between two,
   // `travel(from, to)`.
-  template <class At, class Travel>
-  CollisionCheck::Step step_along(CollisionCheck& way, const At& at, const Travel& travel) noexcept {
+  template <class Way, class At, class Travel>
+  CollisionCheck::Step step_along(Way& way, const At& at, const Travel& travel) noexcept {
     if (is_lost()) {
       return CollisionCheck::Step::Lost;
     }

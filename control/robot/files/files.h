@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,10 @@ struct FileNames {
   double clearance = 5;           // mm
   std::string ignored{};          // Settings::ignore_collisions
   std::vector<double> rotor_inertia{};
+  std::optional<bool> shares{};  // whether there are Settings::other_robots; nullopt: it is not known
 };
+
+FileNames names_of(const Settings& settings);
 
 struct Findings {
   std::vector<base::Diagnostic> files;  // including a note on the abilities of the arm

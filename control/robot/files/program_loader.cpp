@@ -14,11 +14,6 @@ namespace {
 constexpr std::chrono::milliseconds kPoll{20};
 constexpr std::chrono::milliseconds kSoon{1};
 
-FileNames names_of(const Settings& settings) {
-  return {settings.urdf,       settings.jobs,      settings.workspace,
-          settings.tool_speed, settings.clearance, settings.ignore_collisions};
-}
-
 }  // namespace
 
 ProgramLoader::ProgramLoader(const Settings& settings, std::string urdf)

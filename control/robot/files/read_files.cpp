@@ -98,6 +98,25 @@ Diagnostics check_workspace(const FileNames& names, const JobBook& book, const A
   return errors;
 }
 
+// Robots that share their space need bodies, and jobs that begin motions together need such robots.
+Diagnostics check_space(const FileNames& names, const JobBook& book, const Arm& arm, const Clearance& clearance) {
+  Diagnostics errors;
+  if (names.shares.value_or(false) && arm.world_joint() > 0) {
+    errors.push_back(error(names.urdf, {1, 1},
+                           "a robot with a positioner cannot share its space; remove the property other_robots"));
+  } else if (names.shares.value_or(false) && !clearance.known()) {
+    errors.push_back(error(names.urdf, {1, 1}, "robots that share their space need bodies; give links <collision>"));
+  }
+  for (const NamedVariable& sync : book.syncs) {
+    if (!names.shares.value_or(true)) {
+      errors.push_back(error(sync.file, sync.place,
+                             "SYNC begins a motion together with those of other robots; name these in the property "
+                             "other_robots"));
+    }
+  }
+  return errors;
+}
+
 ArmShape shape_of(const Arm& arm) {
   ArmShape shape{arm.count(), {}};
   for (int i = 0; i < arm.count(); ++i) {
@@ -199,6 +218,7 @@ ReadFiles read_files(const FileNames& names) {
       read.clearance = std::move(bodies.clearance);
       sort_out(std::move(bodies.found), read);
       sort_out(check_clear(read.book, read.model->arm, read.clearance), read);
+      sort_out(check_space(names, read.book, read.model->arm, read.clearance), read);
     }
     sort_out(check_workspace(names, read.book, read.model->arm, placed), read);
     if (read.book.tools.size() == 1) {
@@ -209,6 +229,17 @@ ReadFiles read_files(const FileNames& names) {
   return read;
 }
 
+FileNames names_of(const Settings& settings) {
+  return {settings.urdf,
+          settings.jobs,
+          settings.workspace,
+          settings.tool_speed,
+          settings.clearance,
+          settings.ignore_collisions,
+          {},
+          !settings.other_robots.empty()};
+}
+
 Findings check_module(FileNames names, const PropertyText& property) {
   Settings settings;
   Findings found;
@@ -217,10 +248,9 @@ Findings check_module(FileNames names, const PropertyText& property) {
   };
   add(take_properties(property, settings));
   add(check_settings(settings));
-  names.workspace = settings.workspace;
-  names.tool_speed = settings.tool_speed;
-  names.clearance = settings.clearance;
-  names.ignored = settings.ignore_collisions;
+  settings.urdf = names.urdf;
+  settings.jobs = std::move(names.jobs);
+  names = names_of(settings);
   ReadFiles read = read_files(names);
   if (read.model) {
     add(check_axes(settings, read.model->arm, read.model->dynamics.known()));

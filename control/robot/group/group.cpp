@@ -8,7 +8,8 @@ namespace indurop::robot {
 Group::Group(GroupParts parts)
     : robot_(std::move(parts)),
       correction_(robot_),
-      plans_(robot_, correction_),
+      space_(robot_),
+      plans_(robot_, correction_, space_),
       mode_(robot_),
       torques_(robot_, *this),
       resuming_(robot_, *this, plans_, correction_),
@@ -16,7 +17,7 @@ Group::Group(GroupParts parts)
       conveyor_(robot_, *this, plans_),
       queue_(robot_, *this, plans_, conveyor_),
       jogging_(robot_, *this, plans_),
-      gate_(robot_, *this, mode_, {conveyor_, correction_}),
+      gate_(robot_, *this, mode_, space_, {conveyor_, correction_}),
       power_(robot_, *this, torques_),
       stops_(robot_, *this, gate_, {conveyor_, correction_}, power_),
       job_motions_(robot_, plans_, resuming_, shelf_, torques_, {conveyor_, correction_}),
@@ -28,6 +29,7 @@ Group::Group(GroupParts parts)
       reloading_(robot_, *this, plans_, gate_.clear(), torques_),
       breakdown_(robot_, *this),
       motion_report_(robot_, conveyor_) {
+  space_.set_shelf(shelf_.path().pieces);
   begin_keeping();
 }
 
@@ -77,6 +79,7 @@ bool Group::stopped_for_emergency() const noexcept {
 
 // Monitors what may end a motion from outside: the emergency stop, drives, axes that do not follow.
 void Group::watch(const Inputs& in) noexcept {
+  const bool intruded = space_.sense(in.others, in.tick);
   if (in.emergency && !stopped_for_emergency() && commands_motion()) {
     trip(ErrorCode::Emergency, 0, robot_.parts.settings.emergency_factor);
     return;
@@ -86,6 +89,10 @@ void Group::watch(const Inputs& in) noexcept {
     return;
   }
   if (robot_.states.to_error()) {
+    return;
+  }
+  if (intruded && !robot_.axes.gates_at_rest()) {
+    trip(ErrorCode::OtherRobot, 0, robot_.parts.settings.emergency_factor, space_.text());
     return;
   }
   for (int i = 0; i < robot_.count(); ++i) {
@@ -170,6 +177,7 @@ void Group::report(Outputs& out) noexcept {
   torques_.report(out);
   out.commands = robot_.table.answers();
   breakdown_.report(out);
+  out.space = space_.report();
   conveyor_.update_product();
   motion_report_.report(commands_motion(), out);
 }

@@ -27,6 +27,7 @@
 #include "control/robot/group/robot.h"
 #include "control/robot/group/service_desk.h"
 #include "control/robot/group/services.h"
+#include "control/robot/group/shared_space.h"
 #include "control/robot/group/stops.h"
 #include "control/robot/group/torque_watch.h"
 #include "control/robot/kinematics/zeroed.h"
@@ -65,6 +66,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   void follow_path() noexcept;
   void motion_failed(const Fault& fault, int source, std::uint32_t ticket) noexcept;
   void end_motions() noexcept;
+  [[nodiscard]] bool may_resume(const KeptPath& path) noexcept;
 
   void report(Outputs& out) noexcept;
   // Returns false if the set points only follow the positions that the drives report.
@@ -92,6 +94,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
 
   Robot robot_;
   PathCorrection correction_;
+  SharedSpace space_;
   Plans plans_;
   ModeGuard mode_;
   TorqueWatch torques_;

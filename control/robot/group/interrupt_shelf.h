@@ -34,6 +34,7 @@ class InterruptShelf {
   [[nodiscard]] bool leaving() const noexcept { return leaving_; }
   // Joint values where the path was left; null if no job is saved.
   [[nodiscard]] const Joints* left_at() const noexcept { return used_ ? &path_.q : nullptr; }
+  [[nodiscard]] const KeptPath& path() const noexcept { return path_; }
   // Begins the way back to the path. Returns false if it is not begun. Errors: Away.
   bool come_back(Fault& fault) noexcept;
   // The robot is back on the path: the saved job continues.

@@ -60,7 +60,9 @@ void Jogging::begin() noexcept {
   const MoveCommand command = frame_ == JogFrame::Joint ? axis_motion(index_, part_) : tip_motion(index_, part_);
   on_ = true;
   robot_.states.move();
-  plans_.ask({command, nullptr, robot_.commanded(), false});
+  PlanRequest request{command, nullptr, robot_.commanded(), false};
+  request.unreserved = true;
+  plans_.ask(request);
 }
 
 void Jogging::try_shorter() noexcept {

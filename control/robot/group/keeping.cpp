@@ -29,6 +29,7 @@ void Group::begin_keeping() {
   shelf_.blocks(changing);
   robot_.follower.clear_way().blocks(changing);
   gate_.clear().blocks(changing);
+  space_.blocks(changing);
   robot_.tool.blocks([this](const auto& one) { kept_.add_constant(&one, sizeof one); });
   for (const auto& one : robot_.parts.book.known) {
     kept_.add_constant(one.get(), sizeof *one);

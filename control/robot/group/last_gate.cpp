@@ -56,6 +56,13 @@ void LastGate::check_clear() noexcept {
   }
 }
 
+void LastGate::check_space() noexcept {
+  if (robot_.states.powered() && !space_.foresee(off_path_.any())) {
+    group_.trip(ErrorCode::Collision, 0, 1);
+    robot_.job.set_message(space_.text());
+  }
+}
+
 void LastGate::pass() noexcept {
   for (int i = 0; i < robot_.count(); ++i) {
     if (robot_.axes[i].displaced()) {
@@ -72,11 +79,15 @@ void LastGate::pass() noexcept {
   if (!braking_) {
     check_clear();
   }
+  if (!braking_) {
+    check_space();
+  }
   if (braking_) {
     brake();
   } else {
     send();
   }
+  space_.step(off_path_.any());
   if (robot_.axes.gates_at_rest()) {
     braking_ = false;
     hardness_ = robot_.states.stopping() ? hardness_ : 1;

@@ -9,14 +9,21 @@
 #include "control/robot/group/mode_guard.h"
 #include "control/robot/group/off_path.h"
 #include "control/robot/group/robot.h"
+#include "control/robot/group/shared_space.h"
 #include "control/robot/path/joint_brake.h"
 
 namespace indurop::robot {
 
 class LastGate {
  public:
-  LastGate(Robot& robot, GroupPort& group, const ModeGuard& mode, const OffPath& off_path)
-      : robot_(robot), group_(group), mode_(mode), off_path_(off_path), clear_(robot), brake_(robot.parts.joints) {}
+  LastGate(Robot& robot, GroupPort& group, const ModeGuard& mode, SharedSpace& space, const OffPath& off_path)
+      : robot_(robot),
+        group_(group),
+        mode_(mode),
+        space_(space),
+        off_path_(off_path),
+        clear_(robot),
+        brake_(robot.parts.joints) {}
 
   // Every set point passes through here before it reaches a drive. One that is rejected is reported as the end of the
   // path, which has to lead to begin_braking(). Real-time safe, like all functions of this class.
@@ -32,6 +39,7 @@ class LastGate {
  private:
   void check_axes() noexcept;
   void check_clear() noexcept;
+  void check_space() noexcept;
   void send() noexcept;
   [[nodiscard]] bool leaves_workspace() const noexcept;
   [[nodiscard]] bool rests_inside(const Vec3& start) const noexcept;
@@ -40,6 +48,7 @@ class LastGate {
   Robot& robot_;
   GroupPort& group_;
   const ModeGuard& mode_;
+  SharedSpace& space_;
   const OffPath off_path_;
   CollisionsAhead clear_;
   bool braking_ = false;

@@ -81,8 +81,7 @@ std::unique_ptr<Controller> Controller::load(const Settings& settings, std::vect
   if (settings.period <= std::chrono::nanoseconds::zero()) {
     wrong.push_back(error("module", {}, "the robot task is periodic, give it a <period>"));
   }
-  ReadFiles files = read_files({settings.urdf, settings.jobs, settings.workspace, settings.tool_speed,
-                                settings.clearance, settings.ignore_collisions});
+  ReadFiles files = read_files(names_of(settings));
   take_over(std::move(files.errors), wrong);
   if (files.model) {
     take_over(check_axes(settings, files.model->arm, files.model->dynamics.known()), wrong);

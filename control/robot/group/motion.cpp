@@ -143,6 +143,9 @@ void Group::motion_failed(const Fault& fault, int source, std::uint32_t ticket) 
   const bool by_job = job.running();
   FaultText why;
   describe(fault, robot_.tool.places().clearance(), why);
+  if (fault.code == ErrorCode::OtherRobot) {
+    std::snprintf(why, sizeof why, "%s", space_.text());
+  }
   if (source < 0) {
     queue_.fail(source, fault.code);
     job.set_message(why);
@@ -197,13 +200,32 @@ void Group::end_motions() noexcept {
     return;
   }
   if (resuming_.way_back() == Resuming::Return::FromInterrupt) {
-    shelf_.end_come_back();
+    if (may_resume(shelf_.path())) {
+      shelf_.end_come_back();
+    }
   } else if (resuming_.way_back() != Resuming::Return::None) {
-    resuming_.end_way_back();
+    if (resuming_.way_back() == Resuming::Return::Back || may_resume(robot_.follower.kept_path())) {
+      resuming_.end_way_back();
+    }
   } else if (!robot_.job.running() && queue_.empty() && !conveyor_.on()) {
     come_to_standby();
     finish_service(robot_.states.error());
   }
+}
+
+// Requests the space for the rest of a path.
+bool Group::may_resume(const KeptPath& path) noexcept {
+  switch (space_.request(path.pieces)) {
+    case SharedSpace::Answer::Granted:
+      return true;
+    case SharedSpace::Answer::Waits:
+      break;
+    case SharedSpace::Answer::Deadlock:
+    case SharedSpace::Answer::Mismatch:
+      trip(ErrorCode::OtherRobot, 0, 1, space_.text());
+      break;
+  }
+  return false;
 }
 
 }  // namespace indurop::robot

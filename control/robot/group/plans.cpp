@@ -7,6 +7,7 @@ void Plans::ask(const PlanRequest& request) noexcept {
   PlanRequest asked = request;
   asked.follows = asked.follows && robot_.follower.goes_over() && !unconnected_;
   asked.reserve = correction_.shifts() ? PathCorrection::kReserve : 0;
+  asked.cells = request.unreserved ? nullptr : space_.cells_for_plan(desk_);
   unconnected_ = false;
   desk_.ask(asked);
   request_ = asked;
@@ -43,7 +44,11 @@ ReadAhead::Next Plans::begin_next(const Joints& from, bool more) noexcept {
 }
 
 const Plan* Plans::take() noexcept {
-  const Plan* plan = desk_.take();
+  const Plan* plan = waiting_ != nullptr ? waiting_ : desk_.take();
+  if (plan == nullptr || !plan->fault.ok()) {
+    return plan;
+  }
+  plan = granted(*plan);
   if (plan == nullptr || !plan->fault.ok()) {
     return plan;
   }
@@ -54,6 +59,32 @@ const Plan* Plans::take() noexcept {
     ahead_.joined();
   }
   return plan;
+}
+
+// Returns the plan; null: it waits; or a plan with the reason why it is refused.
+const Plan* Plans::granted(const Plan& plan) noexcept {
+  waiting_ = nullptr;
+  if (plan.segment.cells == nullptr) {
+    return &plan;
+  }
+  SharedSpace::Answer answer = space_.request(plan.segment.cells);
+  if (answer == SharedSpace::Answer::Granted && plan.segment.sync >= 0) {
+    answer = space_.meet(plan.segment.cells, robot_.parts.book.syncs[at(plan.segment.sync)].name);
+  }
+  switch (answer) {
+    case SharedSpace::Answer::Granted:
+      return &plan;
+    case SharedSpace::Answer::Waits:
+      waiting_ = &plan;
+      return nullptr;
+    case SharedSpace::Answer::Deadlock:
+    case SharedSpace::Answer::Mismatch:
+      refused_.fault = {ErrorCode::OtherRobot};
+      refused_.segment.source = plan.segment.source;
+      refused_.segment.ticket = plan.segment.ticket;
+      return &refused_;
+  }
+  return nullptr;
 }
 
 }  // namespace indurop::robot

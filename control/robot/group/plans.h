@@ -5,6 +5,7 @@
 
 #include "control/robot/group/path_correction.h"
 #include "control/robot/group/robot.h"
+#include "control/robot/group/shared_space.h"
 #include "control/robot/plan/planning_desk.h"
 #include "control/robot/plan/read_ahead.h"
 
@@ -12,15 +13,16 @@ namespace indurop::robot {
 
 class Plans {
  public:
-  Plans(Robot& robot, const PathCorrection& correction)
+  Plans(Robot& robot, const PathCorrection& correction, SharedSpace& space)
       : robot_(robot),
         correction_(correction),
+        space_(space),
         ahead_(robot.tool.places(), robot.parts.tool),
-        desk_(robot.tool.places(), robot.parts.joints, robot.parts.tool, robot.parts.settings) {}
+        desk_(robot.tool.places(), robot.parts.joints, robot.parts.tool, robot.parts.settings, space.grid()) {}
 
-  // All functions are real-time safe. Returns whether nothing is being planned.
-  [[nodiscard]] bool free() const noexcept { return desk_.free(); }
-  [[nodiscard]] bool can_plan() const noexcept { return desk_.free() && robot_.follower.has_room(); }
+  // All functions are real-time safe. Returns whether nothing is being planned, and no plan waits.
+  [[nodiscard]] bool free() const noexcept { return desk_.free() && waiting_ == nullptr; }
+  [[nodiscard]] bool can_plan() const noexcept { return free() && robot_.follower.has_room(); }
   // Returns whether the thread still uses an abandoned request.
   [[nodiscard]] bool holds_forgotten() noexcept { return desk_.holds_forgotten(); }
   // Announces that plans will soon be requested.
@@ -36,10 +38,13 @@ class Plans {
   // Requests the next motion that waits, which begins at `from`; requires can_plan(). `more`: others may be added in
   // this period. Returns what is being planned now.
   ReadAhead::Next begin_next(const Joints& from, bool more) noexcept;
-  // Gives a plan that is ready to the follower, unless it failed. Returns it; null: none is ready.
+  // Gives a plan that is ready to the follower, unless it failed or waits for space. Returns it; null: none is ready.
   const Plan* take() noexcept;
   // Abandons the plan in progress.
-  void forget() noexcept { desk_.forget(); }
+  void forget() noexcept {
+    desk_.forget();
+    waiting_ = nullptr;
+  }
 
   // The last request; a job that is resumed has to make it again.
   [[nodiscard]] const PlanRequest& request() const noexcept { return request_; }
@@ -55,10 +60,15 @@ class Plans {
 
  private:
   Robot& robot_;
+  const Plan* granted(const Plan& plan) noexcept;
+
   const PathCorrection& correction_;
+  SharedSpace& space_;
   ReadAhead ahead_;
   PlanningDesk desk_;
   PlanRequest request_;
+  const Plan* waiting_ = nullptr;  // for space
+  Plan refused_;                   // with the reason only
   bool unconnected_ = false;
   int source_ = 0;
 };

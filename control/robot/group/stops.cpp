@@ -16,6 +16,7 @@ bool keeps_path(ErrorCode code) noexcept {
     case ErrorCode::Power:
     case ErrorCode::Following:
     case ErrorCode::Planner:
+    case ErrorCode::OtherRobot:
       return true;
     default:
       return false;
@@ -205,7 +206,7 @@ ErrorCode Stops::disable() noexcept {
     return ErrorCode::Ok;
   }
   if (states.is(GroupState::Standby)) {
-    robot_.follower.stop();
+    robot_.stand_here();  // it may have come to Standby in the last period, and the follower is elsewhere
     states.stop_to_disabled();
     return ErrorCode::Ok;
   }

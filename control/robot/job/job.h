@@ -127,6 +127,7 @@ struct MotionExtras {
   bool has_to_find = false;      // it is an error if it does not
   std::uint32_t seed = 0;        // of the search for a free motion
   double within = kUsualSearch;  // s that this search may take
+  int sync = -1;                 // of the book: begins together with motions of other robots
 };
 
 // A point or a frame that a job computes.
@@ -205,7 +206,7 @@ inline constexpr std::size_t kMaxComputed = 32;    // points and frames that job
 inline constexpr std::size_t kMaxInterrupts = 8;   // of all jobs together
 inline constexpr std::size_t kMaxLoops = 8;        // inside each other
 
-// A shared variable that jobs use, and the first place where it is used.
+// A shared variable or a SYNC that jobs use, and the first place where it is used.
 struct NamedVariable {
   std::string name;
   std::string file;
@@ -231,6 +232,7 @@ struct JobBook {
   std::vector<JobCorrection> corrections{};
   std::vector<Wave> waves{};
   std::vector<JobPush> pushes{};
+  std::vector<NamedVariable> syncs{};
   // An ON statement: its condition, and the job that it calls when the condition becomes true.
   struct Interrupt {
     int formula = -1;

@@ -18,7 +18,7 @@ namespace {
 
 bool begins_extras(std::string_view word) noexcept {
   return same_word(word, "SPEED") || same_word(word, "ZONE") || same_word(word, "ACC") || same_word(word, "UNTIL") ||
-         same_word(word, "AXIS");
+         same_word(word, "AXIS") || same_word(word, "SYNC");
 }
 
 }  // namespace
@@ -83,6 +83,9 @@ void MotionReader::extras(std::size_t first_step) {
     } else if (line_.accept("UNTIL")) {
       until(extras);
       continue;
+    } else if (line_.accept("SYNC")) {
+      sync(extras);
+      continue;
     } else if (free && line_.accept("SEED")) {
       seed(extras);
       continue;
@@ -99,7 +102,7 @@ void MotionReader::extras(std::size_t first_step) {
   if (!line_.failed() && zone && extras.until >= 0) {
     line_.error(line_.first(), "a motion with UNTIL ends at rest; leave its ZONE out");
   }
-  if (line_.failed() || (extras.settings.empty() && extras.until < 0 && !free)) {
+  if (line_.failed() || (extras.settings.empty() && extras.until < 0 && extras.sync < 0 && !free)) {
     return;
   }
   draft_.book().extras.push_back(std::move(extras));
@@ -114,6 +117,29 @@ void MotionReader::until(MotionExtras& extras) {
     return;
   }
   extras.until = expressions_.read("the condition that ends the motion");
+}
+
+// Parses the name after SYNC.
+void MotionReader::sync(MotionExtras& extras) {
+  const JobToken name = line_.peek();
+  if (draft_.last().move == Move::Spline || extras.sync >= 0) {
+    line_.error(line_.before(), "SYNC comes once, after the points of a MOVJ, MOVL, MOVC, SEARCH or MOVE FREE");
+    return;
+  }
+  constexpr std::size_t kMost = string<32>::capacity();
+  if (name.kind != JobToken::Kind::Word || name.text.size() > kMost) {
+    line_.error(name,
+                "expected a name of at most 31 characters after SYNC, the same in the jobs of all robots; found " +
+                    JobLine::shown(name));
+    return;
+  }
+  line_.take();
+  std::vector<NamedVariable>& known = draft_.book().syncs;
+  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& each) { return each.name == name.text; });
+  extras.sync = static_cast<int>(found - known.begin());
+  if (found == known.end()) {
+    known.push_back({std::string(name.text), line_.file(), line_.place(name)});
+  }
 }
 
 void MotionReader::seed(MotionExtras& extras) {

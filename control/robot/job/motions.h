@@ -36,6 +36,7 @@ class MotionReader {
   void until(MotionExtras& extras);
   void seed(MotionExtras& extras);
   void within(MotionExtras& extras);
+  void sync(MotionExtras& extras);
 
   JobLine& line_;
   JobDraft& draft_;

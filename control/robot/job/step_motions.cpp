@@ -113,6 +113,8 @@ StepValues::Flaw StepMotions::make(const Step& step, const MotionSettings& setti
   if (extras != nullptr) {
     command.seed = extras->seed;
     command.within = extras->within;
+    command.sync = extras->sync;
+    command.alone = command.alone || extras->sync >= 0;
   }
   if (own.wave >= 0 && !of_joints) {
     command.wave = book_.waves[static_cast<std::size_t>(own.wave)];

@@ -35,6 +35,12 @@ bool settings_read_world(const JobBook& book, const Step& motion) noexcept {
          });
 }
 
+// It begins at rest.
+bool begins_with_others(const JobBook& book, const Step& motion) noexcept {
+  const MotionExtras* const extras = book.extras_of(motion);
+  return extras != nullptr && extras->sync >= 0;
+}
+
 }  // namespace
 
 bool has_until(const JobBook& book, const Step& step) noexcept {
@@ -66,7 +72,8 @@ bool touches_world(const JobBook& book, const Step& step) noexcept {
     case Op::Place:
       return book.places[static_cast<std::size_t>(step.mid)].reads.world();
     case Op::Move:
-      if (step.index == kHere || has_until(book, step) || settings_read_world(book, step)) {
+      if (step.index == kHere || has_until(book, step) || begins_with_others(book, step) ||
+          settings_read_world(book, step)) {
         return true;
       }
       break;

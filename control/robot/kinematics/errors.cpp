@@ -78,6 +78,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "the tool points along the way, so there is no side to weave to; turn the tool, or end it with WEAVE OFF";
     case ErrorCode::NoWay:
       return "no way around what is in the way was found in time; add a point between, or give it longer, WITHIN 20 s";
+    case ErrorCode::OtherRobot:
+      return "another robot came into the way, or both wait for each other";
   }
   return "unknown error";
 }

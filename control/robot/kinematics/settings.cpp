@@ -45,6 +45,8 @@ struct List {
 constexpr List kLists[] = {{"acceleration", &Settings::acceleration},
                            {"jerk", &Settings::jerk},
                            {"workspace", &Settings::workspace},
+                           {"cell_box", &Settings::cell_box},
+                           {"base_in_cell", &Settings::base_in_cell},
                            {"counts_per_turn", &Settings::counts_per_turn},
                            {"counts_per_mm", &Settings::counts_per_mm},
                            {"gear", &Settings::gear},
@@ -54,6 +56,7 @@ constexpr List kLists[] = {{"acceleration", &Settings::acceleration},
                            {"collision_limit", &Settings::collision_limit}};
 constexpr const char* kCategory = "emergency_category";
 constexpr const char* kIgnored = "ignore_collisions";
+constexpr const char* kOthers = "other_robots";
 
 // This library stands alone: core/base/text.h is not in it.
 std::string trimmed(const std::string& text) {
@@ -118,6 +121,10 @@ std::vector<WrongSetting> take_properties(const PropertyText& given, Settings& s
     take_list(property, list, settings, wrong);
   }
   settings.ignore_collisions = property(kIgnored);
+  std::istringstream others(property(kOthers));
+  for (std::string other; others >> other;) {
+    settings.other_robots.push_back(other);
+  }
   if (const std::string text = property(kCategory); !text.empty()) {
     if (text == "0" || text == "1") {
       settings.emergency_category = text == "0" ? StopCategory::Category0 : StopCategory::Category1;
@@ -127,6 +134,48 @@ std::vector<WrongSetting> take_properties(const PropertyText& given, Settings& s
   }
   return wrong;
 }
+
+namespace {
+
+// Checks the settings of robots that share their space.
+void check_space(const Settings& settings, Wrong& wrong) {
+  const std::vector<std::string>& others = settings.other_robots;
+  const auto finite = [](const std::vector<double>& values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  };
+  const auto is_box = [&](const std::vector<double>& v) {
+    return v.size() == 6 && finite(v) && v[0] != v[3] && v[1] != v[4] && v[2] != v[5];
+  };
+  if (others.size() > kOtherRobots) {
+    wrong.push_back({kOthers, "at most " + std::to_string(kOtherRobots) + " other robots can share the space of one"});
+  }
+  for (auto one = others.begin(); one != others.end(); ++one) {
+    if (one->size() > string<32>::capacity()) {
+      wrong.push_back({kOthers, quote(*one) + " is too long: at most 31 characters"});
+    }
+    if (*one == settings.name) {
+      wrong.push_back({kOthers, quote(*one) + " is this robot; name the others only"});
+    }
+    if (std::find(others.begin(), one, *one) != one) {
+      wrong.push_back({kOthers, quote(*one) + " is named twice"});
+    }
+  }
+  if (!others.empty() && !is_box(settings.cell_box)) {
+    wrong.push_back({"cell_box",
+                     "robots that share their space need the box that contains it: two opposite corners, "
+                     "x y z x y z in mm"});
+  }
+  if (others.empty() && !(settings.cell_box.empty() && settings.base_in_cell.empty())) {
+    wrong.push_back({"cell_box",
+                     "cell_box and base_in_cell are for robots that share their space; name these in "
+                     "other_robots"});
+  }
+  if (!settings.base_in_cell.empty() && (settings.base_in_cell.size() != 6 || !finite(settings.base_in_cell))) {
+    wrong.push_back({"base_in_cell", "it has to be a pose, x y z in mm, roll pitch yaw in deg"});
+  }
+}
+
+}  // namespace
 
 std::vector<WrongSetting> check_settings(const Settings& settings) {
   Wrong wrong;
@@ -143,6 +192,7 @@ std::vector<WrongSetting> check_settings(const Settings& settings) {
       settings.emergency_category != StopCategory::Category1) {
     wrong.push_back({kCategory, "it has to be 0 or 1, an emergency stop takes power away"});
   }
+  check_space(settings, wrong);
   return wrong;
 }
 
@@ -198,7 +248,7 @@ Joints of_axes(const std::vector<double>& values) noexcept {
 
 const std::vector<std::string>& setting_names() {
   static const std::vector<std::string> kNames = [] {
-    std::vector<std::string> names{"urdf", "jobs", kCategory, kIgnored};
+    std::vector<std::string> names{"urdf", "jobs", kCategory, kIgnored, kOthers};
     const auto add = [&](const auto& table) {
       for (const auto& one : table) {
         names.emplace_back(one.name);

@@ -71,6 +71,8 @@ class Follower {
   [[nodiscard]] double to_go() const noexcept;
   // Returns the place on the present motion.
   [[nodiscard]] PathPlace path_place() const noexcept { return path_.place(to_go()); }
+  // The segments that remain to be followed.
+  [[nodiscard]] const PathPieces& pieces() const noexcept { return path_.pieces(); }
   // Returns MoveCommand::source of the present path; 0: none.
   [[nodiscard]] int source() const noexcept { return path_.source(); }
 

@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include <indurop/robot/space.h>
+
 #include <optional>
 
 #include "control/robot/collision/clearance.h"
@@ -58,6 +60,7 @@ struct MoveCommand {
   Wave wave{};               // across lines, circles and splines
   std::uint32_t seed = 0;    // of a search for a way
   double within = 0;         // s, that this search may take; 0: any time
+  int sync = -1;             // begins together with motions of other robots that have this name; -1: alone
 };
 
 struct Segment {
@@ -106,6 +109,8 @@ struct Segment {
   // For joints that arrive together: part of full speed, and the factor by which torque limits lengthen the motion.
   double speed = 1;
   double slowness = 1;
+  const SpaceCells* cells = nullptr;  // of the shared space, through which it leads; null: unknown; not owned
+  int sync = -1;                      // as MoveCommand::sync
 
   // Position of a joint motion. `place` is from 0 to length. Real-time safe, like all functions of this struct.
   [[nodiscard]] Joints joints_at(double place) const noexcept;

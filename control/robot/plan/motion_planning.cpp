@@ -37,6 +37,14 @@ void MotionPlanning::plan(const PlanRequest& request, const std::atomic<bool>& d
     if (request.follows) {
       plan.blend = planner_.blend(before_, plan.segment);
     }
+    plan.segment.cells = request.cells;
+    plan.segment.sync = request.command.sync;
+    if (request.cells != nullptr) {
+      sweep_.sweep(plan.segment, dropped, *request.cells);
+      if (plan.blend.zone > 0) {
+        sweep_.add(before_, plan.blend, plan.segment, dropped, *request.cells);
+      }
+    }
     before_ = plan.segment;
   }
 }

@@ -8,6 +8,7 @@
 #include <atomic>
 
 #include "control/robot/path/chain.h"
+#include "control/robot/plan/path_sweep.h"
 #include "control/robot/plan/planner.h"
 
 namespace indurop::robot {
@@ -22,6 +23,8 @@ struct PlanRequest {
   MoveCommand then{};
   double reserve = 0;               // part of the joints' limits that is left to a correction of the path
   JointPath* joint_path = nullptr;  // of a free motion: receives its path; is not used until the motion has ended
+  bool unreserved = false;          // the motion is not granted as a whole, but step by step while it is executed
+  SpaceCells* cells = nullptr;      // receives the cells through which it leads; null: they are not needed
 };
 
 struct Plan {
@@ -33,8 +36,9 @@ struct Plan {
 
 class MotionPlanning {
  public:
-  MotionPlanning(const Places& places, const JointLimits& joints, const ToolLimits& tool)
-      : joints_(joints), planner_(places, joints, tool) {}
+  // `grid`: as for PathSweep.
+  MotionPlanning(const Places& places, const JointLimits& joints, const ToolLimits& tool, const CellGrid* grid)
+      : joints_(joints), planner_(places, joints, tool), sweep_(places, joints_, grid) {}
 
   [[nodiscard]] Planner& planner() noexcept { return planner_; }
   // Makes the plan; `dropped` abandons it. Real-time safe unless collisions have to be checked.
@@ -54,6 +58,7 @@ class MotionPlanning {
   const JointLimits joints_;
   Planner planner_;
   Segment before_;
+  PathSweep sweep_;
 };
 
 }  // namespace indurop::robot

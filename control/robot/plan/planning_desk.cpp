@@ -19,7 +19,7 @@ constexpr double kMostSeconds = 60;  // s
 }  // namespace
 
 PlanningDesk::PlanningDesk(const Places& places, const JointLimits& joints, const ToolLimits& tool,
-                           const Settings& settings)
+                           const Settings& settings, const CellGrid* grid)
     : places_(places),
       tool_(tool),
       period_(std::chrono::duration<double>(settings.period).count()),
@@ -27,7 +27,7 @@ PlanningDesk::PlanningDesk(const Places& places, const JointLimits& joints, cons
       in_tick_(settings.plan_in_tick),
       learned_(settings.learned),
       guarded_(settings.guarded),
-      planning_(places, joints, tool) {
+      planning_(places, joints, tool, grid) {
   in_tick_ = in_tick_ || !begin_ordinary_thread(thread_, "robot-plan", kStack, enter, this);  // else the tick plans
 }
 

@@ -18,7 +18,9 @@ namespace indurop::robot {
 
 class PlanningDesk {
  public:
-  PlanningDesk(const Places& places, const JointLimits& joints, const ToolLimits& tool, const Settings& settings);
+  // `grid`: as for PathSweep.
+  PlanningDesk(const Places& places, const JointLimits& joints, const ToolLimits& tool, const Settings& settings,
+               const CellGrid* grid = nullptr);
   PlanningDesk(const PlanningDesk&) = delete;
   PlanningDesk& operator=(const PlanningDesk&) = delete;
   ~PlanningDesk();
@@ -42,6 +44,10 @@ class PlanningDesk {
   const Plan* take() noexcept;
   // The planner, for replacing its bodies; requires free() and no abandoned request in use.
   [[nodiscard]] Planner& planner() noexcept { return planning_.planner(); }
+  // Returns whether a plan, or one that was abandoned, uses these cells.
+  [[nodiscard]] bool uses(const SpaceCells* cells) const noexcept {
+    return (asked_ && waiting_.cells == cells) || request_.cells == cells;
+  }
   // Announces that plans will soon be requested.
   void expect_work(bool soon) noexcept { soon_.store(soon, std::memory_order_relaxed); }
   // For a plan with ErrorCode::Planner: how the thread crashed.

@@ -7,6 +7,7 @@
 #include <indurop/result.h>
 #include <indurop/robot/commands.h>
 #include <indurop/robot/questions.h>
+#include <indurop/robot/space.h>
 #include <indurop/robot/words.h>
 #include <indurop/string.h>
 
@@ -168,6 +169,9 @@ struct Inputs {
   JogRequest jog;
   ModeRequest mode;
   AnswerRequest answer;
+  std::uint64_t tick = 0;  // of the node: the same for all robots that are stepped in it
+  // Reports of the robots in Settings::other_robots, in that order; null: none was received.
+  std::array<const SpaceReport*, kOtherRobots> others{};
 };
 
 // The status of one axis, as AXIS_STATUS[n]. A request is acknowledged, and later done or aborted, by its number.
@@ -252,6 +256,7 @@ struct Outputs {
   bool may_move = true;                     // true unless the mode or its enabling device forbids motion
   std::uint32_t tool = 0;                   // in use; 0: none
   const char* tool_name = "";               // valid as long as the controller
+  const SpaceReport* space = nullptr;       // for other robots; null: Settings::other_robots is empty; valid so long
   // Reason why the task cannot continue, set once its drives have no power: the module must end. Null: it can continue.
   const char* broken = nullptr;
 };
@@ -285,6 +290,13 @@ struct Settings {
   // mm; bodies of links, tools and zones nearer to each other than this count as touching.
   double clearance = 5;
   std::string ignore_collisions;  // links, tools and zones that may touch: "forearm gripper, shoulder table"
+  // The robots of this node that share its space, by the namespaces of their variables, at most kOtherRobots; its own
+  // name; mm, x y z of two opposite corners of the box that contains what they share; and the pose of the robot's base
+  // in the frame of that box, x y z in mm, roll pitch yaw in deg.
+  std::vector<std::string> other_robots;
+  std::string name;
+  std::vector<double> cell_box;
+  std::vector<double> base_in_cell;
   double tool_speed = 1000;       // mm/s, full speed on lines and circles
   double tool_turn_speed = 180;   // deg/s, the same for orientation
   double emergency_factor = 1.5;  // factor on the accelerations in an emergency stop

@@ -132,7 +132,8 @@ enum class ErrorCode : std::uint32_t {
   NoTorque,      // the torque of an axis is not known: no masses, no rated torque, or no such mode in its drive
   Planner,       // a thread of the robot task crashed; the task ends once the drives have no power
   Wave,          // the tool points along the path that it is to weave across
-  NoWay          // the search for a free motion found no way, or not in time
+  NoWay,         // the search for a free motion found no way, or not in time
+  OtherRobot     // another robot came into the way, or both wait for each other
 };
 
 // The operating mode of the robot (ISO 10218-1), as selected by a key switch.

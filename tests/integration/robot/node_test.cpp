@@ -290,6 +290,41 @@ TEST_F(RobotNode, Two_robots_in_a_simulation_are_the_same_on_every_run) {
   EXPECT_EQ(first, everything());
 }
 
+TEST_F(RobotNode, A_robot_waits_until_another_one_has_left_its_way) {
+  start_and_wait(robots_that_share("POINT OUT = JOINT 90 0 0 0 0 0\nWAIT PLC_ROBOT::I4 ON\nMOVJ OUT\n"));
+  set("PLC_ROBOT::I14", "1");
+  set("PLC_ROBOT::I15", "1");
+  ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::EMERGENCY_STOP.bActive") == 0; }));
+  const std::string service = "::ROBOT_MODULE_SERVICE";
+  for (const std::string robot : {"PLC_ROBOT", "PLC_ROBOT2"}) {
+    set(robot + service, "{eOpCode: 1, nRequest: 1}");
+    ASSERT_TRUE(wait_until([&] { return number(robot + "::ROBOT_MODULE_STATE.eState") == 1; })) << robot;
+    set(robot + service, "{eOpCode: 11, nJob: 1, nRequest: 2}");
+  }
+  const auto waits_for = [&] { return indurop({"get", "PLC_ROBOT2::ROBOT_SPACE.cWaitsFor"}).out; };
+  ASSERT_TRUE(wait_until([&] { return waits_for() == "\"PLC_ROBOT\"\n"; })) << waits_for();
+  EXPECT_EQ(number("PLC_ROBOT2::AXIS1_IN.position"), 0);
+  EXPECT_EQ(number("PLC_ROBOT2::ROBOT_SPACE.bStands"), 1);
+  set("PLC_ROBOT::I4", "1");
+  EXPECT_TRUE(wait_until([&] { return number("PLC_ROBOT2::O8") == 1; }));
+  EXPECT_GT(joint(1), 60) << "the other one went first";
+  EXPECT_EQ(waits_for(), "\"\"\n");
+}
+
+TEST_F(RobotNode, Robots_that_share_their_space_do_so_in_a_simulation_in_the_same_way_on_every_run) {
+  auto all = robots_that_share("POINT OUT = JOINT 90 0 0 0 0 0\nWAIT 1 s\nMOVJ OUT\n");
+  all.push_back({.file = BOTH_ROBOTS, .name = "plc", .period = "10ms", .priority = 4});
+  const auto everything = [&] {
+    const Outcome outcome = run_to_end(all, {"--sim", "--until", "10s"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return indurop({"vars", "-o", "json"}).out;
+  };
+  const std::string first = everything();
+  EXPECT_EQ(number("PLC_ROBOT2::O8"), 1);
+  EXPECT_EQ(number("PLC_ROBOT::ROBOT_JOB.nCycles"), 1);
+  EXPECT_EQ(first, everything());
+}
+
 TEST_F(RobotNode, More_axes_than_variables_are_said_before_the_start) {
   auto wrong = modules("POINT A = JOINT 0 0 0 0 0 0 0\n");
   copy(SEVEN_AXES, "robot.urdf");

@@ -81,6 +81,35 @@ class RobotNode : public NodeTest {
     return all;
   }
 
+  // Two robots of six axes that share their space. The first one points to the place between them and leaves it after
+  // a while, the second one wants to go there.
+  std::vector<Module> robots_that_share(const std::string& first_job) {
+    auto all = modules(first_job, {{"PLC_ROBOT", "123456"}, {"PLC_ROBOT2", "123456"}});
+    const std::string box = "0 -700 0 1400 700 1400";
+    const auto access = [](const std::string& own, const std::string& other) {
+      std::string names;
+      for (const char* variable : {"::ROBOT_SPACE", "::ROBOT_HELD"}) {
+        names += "<read>" + other + variable + "</read><write>" + own + variable + "</write>";
+      }
+      return "<budget>10s</budget><access>" + names + "</access>";
+    };
+    all[1].properties.insert(all[1].properties.end(), {{"other_robots", "PLC_ROBOT2"}, {"cell_box", box}});
+    all[1].more = access("PLC_ROBOT", "PLC_ROBOT2");
+    write("second.job", "POINT IN = JOINT 90 0 0 0 0 0\nMOVJ IN\nSET PLC_ROBOT2::O8 ON\n");
+    all.push_back({.file = SECOND_ROBOT,
+                   .name = "robot2",
+                   .period = "5ms",
+                   .priority = 3,
+                   .properties = {{"urdf", "robot.urdf"},
+                                  {"jobs", "second.job"},
+                                  {"following_limit", "30"},
+                                  {"other_robots", "PLC_ROBOT"},
+                                  {"cell_box", box},
+                                  {"base_in_cell", "1400 0 0 0 0 90"}},
+                   .more = access("PLC_ROBOT2", "PLC_ROBOT")});
+    return all;
+  }
+
   // Each ok_NAME of the program says whether the block did what it should.
   void run_blocks(const std::string& name, int priority = 3,
                   const std::string& job = "TOOL gripper = POSE 0 0 120 RPY 0 0 0\n") {

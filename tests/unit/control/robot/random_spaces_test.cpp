@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// Robots that share their space, with random jobs, holds, overrides, stops, emergencies and failing drives at random
+// instants: their bodies, which are placed and measured in another way, never touch, and each robot holds the cells
+// where its bodies are. INDUROP_ROBOT_SPACES says how many runs, INDUROP_ROBOT_SEED from which one on.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <random>
+
+#include "two_robots.h"
+
+namespace indurop::robot {
+namespace {
+
+int setting(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? otherwise : std::atoi(text);
+}
+
+// Motions all around, most of them in front of the robot.
+std::string random_motions(std::mt19937& random) {
+  const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto one_of = [&](int many) { return std::uniform_int_distribution<int>(0, many - 1)(random); };
+  std::string job;
+  constexpr int kPoints = 8;
+  for (int i = 0; i < kPoints; ++i) {
+    if (i % 2 == 0) {
+      job += fmt::format("POINT P{} = JOINT {} {} {} {} {} {}\n", i, in(-100, 100), in(-40, 80), in(-90, 30),
+                         in(-90, 90), in(-80, 80), in(-180, 180));
+    } else {
+      job += fmt::format("POINT P{} = POSE {} {} {} RPY 180 0 {}\n", i, in(350, 750), in(-400, 400), in(200, 700),
+                         in(-60, 60));
+    }
+  }
+  job += "MOVJ P0\n";
+  for (int i = 0; i < 12; ++i) {
+    if (one_of(4) == 0) {
+      job += fmt::format("SPEED {}%\n", 20 + one_of(81));
+    }
+    if (one_of(4) == 0) {
+      job += fmt::format("ZONE {} mm\n", one_of(2) * (5 + one_of(60)));
+    }
+    const int to = one_of(kPoints);
+    job += one_of(3) > 0 || to % 2 == 0 ? fmt::format("TRY\nMOVJ P{}\nRECOVER\nWAIT 0.1 s\nEND\n", to)
+                                        : fmt::format("TRY\nMOVL P{}\nRECOVER\nWAIT 0.1 s\nEND\n", to);
+    if (one_of(5) == 0) {
+      job += fmt::format("WAIT {:.2f} s\n", in(0.1, 1));
+    }
+  }
+  return job;
+}
+
+class Random_spaces : public testing::Test {
+ protected:
+  double least = HUGE_VAL;  // m between robots
+  std::map<std::string, int> seen;
+
+  void run(unsigned seed, bool shares, bool disturbs) {
+    std::mt19937 random(seed);
+    const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const double period_ms = seed % 3 == 0 ? 2 : seed % 3 == 1 ? 4 : 10;
+    std::vector<SharingRobot> robots{{"A", random_motions(random)},
+                                     {"B", random_motions(random), {in(850, 1300), in(-200, 200), 0, 0, 0, 180}}};
+    if (seed % 4 == 3) {
+      robots.push_back({"C", random_motions(random), {in(300, 700), in(850, 1100), 0, 0, 0, -90}});
+    }
+    SharingRobots sut(robots, period_ms, shares);
+    ASSERT_TRUE(sut.enable()) << "seed " << seed;
+    for (int i = 0; i < 20000 / period_ms; ++i) {
+      for (std::size_t k = 0; k < sut.size(); ++k) {
+        if (disturbs && in(0, 1) < 0.3 * period_ms / 1000) {
+          disturb(sut[k], random);
+        }
+        recover(sut, k);
+      }
+      sut.step();
+      constexpr double kEach = 10;  // ms
+      if (i % static_cast<int>(kEach / period_ms) == 0) {
+        judge(sut, shares, fmt::format("seed {}, period {} of {} ms", seed, i, period_ms));
+      }
+      if (HasFatalFailure()) {
+        return;
+      }
+    }
+    for (std::size_t k = 0; k < sut.size(); ++k) {
+      seen["motions that ended"] += static_cast<int>(sut[k].out.job.cycles);
+      seen["intrusions"] += static_cast<int>(sut.report(k).intrusions);
+    }
+  }
+
+ private:
+  // Starts each job again, and resets and enables a robot that stopped.
+  void recover(SharingRobots& sut, std::size_t k) {
+    Cell& cell = sut[k];
+    if (cell.out.done != cell.in.service.number && cell.out.error == ErrorCode::Ok) {
+      return;
+    }
+    if (cell.out.state == GroupState::ErrorStop) {
+      seen[to_string(cell.out.error)] += cell.in.service.code == static_cast<int>(Service::GroupReset) ? 0 : 1;
+      cell.in.emergency = false;
+      for (DriveIn& drive : cell.in.drives) {
+        drive.status = drive.status == Cell::kFault ? Cell::kSwitchOnDisabled : drive.status;
+      }
+      cell.ask(Service::GroupReset);
+    } else if (cell.out.state == GroupState::Disabled) {
+      cell.ask(Service::GroupEnable);
+    } else if (cell.out.state == GroupState::Standby) {
+      cell.in.service.job = 1;
+      cell.ask(cell.out.job.can_resume ? Service::JobResume : Service::JobStart);
+    }
+  }
+
+  static void disturb(Cell& cell, std::mt19937& random) {
+    switch (std::uniform_int_distribution<int>(0, 9)(random)) {
+      case 0:
+      case 1:
+        cell.in.hold = !cell.in.hold;
+        break;
+      case 2:
+      case 3:
+        cell.in.speed_override = std::uniform_real_distribution<double>(0, 100)(random);
+        break;
+      case 4:
+        cell.ask(Service::Stop);
+        break;
+      case 5:
+        cell.in.emergency = true;
+        break;
+      case 6:
+        cell.in.drives[std::uniform_int_distribution<std::size_t>(0, 5)(random)].status = Cell::kFault;
+        break;
+      case 7:
+        cell.ask(Service::GroupDisable);
+        break;
+      default:
+        cell.in.hold = false;
+        cell.in.speed_override = 100;
+    }
+  }
+
+  void judge(SharingRobots& sut, bool shares, const std::string& where) {
+    for (std::size_t k = 0; k < sut.size(); ++k) {
+      for (std::size_t other = 0; other < k; ++other) {
+        const double apart = sut.apart(k, other);
+        least = std::min(least, apart);
+        if (shares) {
+          ASSERT_GT(apart, 0) << where;
+        }
+      }
+      if (shares) {
+        ASSERT_TRUE(sut.holds_its_bodies(k)) << where << ", robot " << k;
+        seen["periods of waiting"] += sut.report(k).waits_for.view().empty() ? 0 : 1;
+        seen["periods"] += 1;
+      }
+    }
+  }
+};
+
+TEST_F(Random_spaces, Robots_never_touch) {
+  const int first = setting("INDUROP_ROBOT_SEED", 1);
+  const int many = setting("INDUROP_ROBOT_SPACES", 12);
+  for (int i = 0; i < many; ++i) {
+    run(static_cast<unsigned>(first + i), true, false);
+    if (HasFatalFailure()) {
+      return;
+    }
+  }
+  for (const auto& [what, times] : seen) {
+    fmt::print("{:8} {}\n", times, what);
+  }
+  fmt::print("{:.1f} mm between robots at least\n", 1000 * least);
+}
+
+TEST_F(Random_spaces, Robots_never_touch_whatever_happens) {
+  const int first = setting("INDUROP_ROBOT_SEED", 1001);
+  const int many = setting("INDUROP_ROBOT_SPACES", 12);
+  for (int i = 0; i < many; ++i) {
+    run(static_cast<unsigned>(first + i), true, true);
+    if (HasFatalFailure()) {
+      return;
+    }
+  }
+  for (const auto& [what, times] : seen) {
+    fmt::print("{:8} {}\n", times, what);
+  }
+  fmt::print("{:.1f} mm between robots at least\n", 1000 * least);
+}
+
+// The judge sees it if robots do not share their space.
+TEST_F(Random_spaces, Robots_touch_without_it) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    run(seed, false, false);
+  }
+  EXPECT_EQ(least, 0);
+}
+
+}  // namespace
+}  // namespace indurop::robot
