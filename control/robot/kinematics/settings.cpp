@@ -160,15 +160,20 @@ void check_space(const Settings& settings, Wrong& wrong) {
       wrong.push_back({kOthers, quote(*one) + " is named twice"});
     }
   }
-  if (!others.empty() && !is_box(settings.cell_box)) {
-    wrong.push_back({"cell_box",
-                     "robots that share their space need the box that contains it: two opposite corners, "
-                     "x y z x y z in mm"});
+  if (others.empty()) {
+    const auto refuse = [&](const char* name, const std::vector<double>& values) {
+      if (!values.empty()) {
+        wrong.push_back({name, "it is for robots that share their space; name the others in other_robots"});
+      }
+    };
+    refuse("cell_box", settings.cell_box);
+    refuse("base_in_cell", settings.base_in_cell);
+    return;
   }
-  if (others.empty() && !(settings.cell_box.empty() && settings.base_in_cell.empty())) {
+  if (!is_box(settings.cell_box)) {
     wrong.push_back({"cell_box",
-                     "cell_box and base_in_cell are for robots that share their space; name these in "
-                     "other_robots"});
+                     "robots that share their space need the box that contains it: two opposite corners, x y z x y z "
+                     "in mm"});
   }
   if (!settings.base_in_cell.empty() && (settings.base_in_cell.size() != 6 || !finite(settings.base_in_cell))) {
     wrong.push_back({"base_in_cell", "it has to be a pose, x y z in mm, roll pitch yaw in deg"});

@@ -46,7 +46,7 @@ TEST_F(Robot_settings, The_defaults_are_sane) {
 
 TEST_F(Robot_settings, Each_is_refused_if_it_makes_no_sense) {
   for (const std::string& name : setting_names()) {
-    if (name == "urdf" || name == "jobs" || name == "ignore_collisions") {
+    if (name == "urdf" || name == "jobs" || name == "ignore_collisions" || name == "other_robots") {
       continue;
     }
     EXPECT_THAT(wrong(name, "abc"), ElementsAre(name));
@@ -66,6 +66,37 @@ TEST_F(Robot_settings, Each_is_refused_if_it_makes_no_sense) {
   EXPECT_THAT(wrong("counts_per_turn", "1000 2000"), ElementsAre("counts_per_turn"));
   EXPECT_THAT(wrong("gear", "1 1 1 0 1 1"), ElementsAre("gear"));
   EXPECT_THAT(wrong("zero", "0 0 0 0 0 inf"), ElementsAre("zero"));
+}
+
+TEST_F(Robot_settings, Of_robots_that_share_their_space_are_refused_if_they_do_not_fit) {
+  Settings settings;
+  settings.name = "R1";
+  settings.cell_box = {0, 0, 0, 1, 1, 1};
+  const auto wrong = [&] {
+    std::vector<std::string> texts;
+    for (const WrongSetting& one : check_settings(settings)) {
+      texts.push_back(one.property + ": " + one.text);
+    }
+    return texts;
+  };
+  settings.other_robots = {"R2", "R3", "R4"};
+  EXPECT_THAT(wrong(), IsEmpty());
+  settings.other_robots = {"R2", "R3", "R4", "R5"};
+  EXPECT_THAT(wrong(), ElementsAre("other_robots: at most 3 other robots can share the space of one"));
+  settings.other_robots = {"R2", "R1"};
+  EXPECT_THAT(wrong(), ElementsAre("other_robots: 'R1' is this robot; name the others only"));
+  settings.other_robots = {"R2", "R2"};
+  EXPECT_THAT(wrong(), ElementsAre("other_robots: 'R2' is named twice"));
+  settings.other_robots = {std::string(32, 'R')};
+  EXPECT_THAT(wrong(), ElementsAre(HasSubstr("is too long: at most 31 characters")));
+  settings.other_robots = {"R2"};
+  for (const std::vector<double>& box : {std::vector<double>{}, {0, 0, 0, 1, 1}, {0, 0, 0, 1, 0, 1}}) {
+    settings.cell_box = box;
+    EXPECT_THAT(wrong(), ElementsAre(HasSubstr("cell_box: robots that share their space need the box")));
+  }
+  settings.cell_box = {0, 0, 0, 1, 1, 1};
+  settings.base_in_cell = {1, 2, 3};
+  EXPECT_THAT(wrong(), ElementsAre(HasSubstr("base_in_cell: it has to be a pose")));
 }
 
 TEST_F(Robot_settings, All_of_them_are_taken) {
@@ -91,6 +122,9 @@ TEST_F(Robot_settings, All_of_them_are_taken) {
                                                     {"jerk", "6 5 4 3 2 1"},
                                                     {"workspace", "0 0 0 1 1 1"},
                                                     {"clearance", "7"},
+                                                    {"other_robots", " R2 R3 "},
+                                                    {"cell_box", "0 1 2 3 4 5"},
+                                                    {"base_in_cell", "6 5 4 3 2 1"},
                                                     {"ignore_collisions", "wrist forearm"}};
   Settings settings;
   EXPECT_THAT(take_properties([&](const char* name) { return texts.at(name); }, settings), IsEmpty());
@@ -117,6 +151,9 @@ TEST_F(Robot_settings, All_of_them_are_taken) {
   EXPECT_THAT(settings.workspace, ElementsAre(0, 0, 0, 1, 1, 1));
   EXPECT_EQ(settings.clearance, 7);
   EXPECT_EQ(settings.ignore_collisions, "wrist forearm");
+  EXPECT_THAT(settings.other_robots, ElementsAre("R2", "R3"));
+  EXPECT_THAT(settings.cell_box, ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_THAT(settings.base_in_cell, ElementsAre(6, 5, 4, 3, 2, 1));
 }
 
 TEST(Robot_files, Speeds_of_jobs_beyond_full_speed_are_warned_of) {
