@@ -30,8 +30,9 @@ function name_in(urdf: string): string {
 }
 
 async function fetch_robots(board: string): Promise<Robots> {
-  const variables = await get<Variables>(board_path(board, "/variables?values=false&match=*ROBOT_ARM"));
-  const scopes = scopes_of(variables.variables);
+  const called = (name: string) => get<Variables>(board_path(board, `/variables?values=false&match=*${name}`));
+  const found = await Promise.all([called("ROBOT_ARM"), called("ROBOT_SPACE")]);
+  const scopes = scopes_of(found.flatMap(({ variables }) => variables));
   try {
     const { robots } = await get<{ robots: Description[] }>(board_path(board, "/robots"));
     return { robots: robots.map((robot) => ({ ...robot, name: name_in(robot.urdf) || robot.module })), scopes, described: true };
@@ -71,7 +72,7 @@ function Numbers({ state, names, down }: { state: RobotState; names: string[]; d
     <>
       {down && <p class="bad">{down}: the values below are its last ones.</p>}
       <dl class="facts">
-        <Fact name="State" value={down ? "not running" : state.group} bad={!!down || state.group.includes("error")} warn={state.group === "disabled"} />
+        <Fact name="State" value={down ? "not running" : state.waits_for ? `${state.group}, waits for ${state.waits_for}` : state.group} bad={!!down || state.group.includes("error")} warn={state.group === "disabled"} />
         <Fact name="Job" value={state.job ? `${job_text(state)}line ${state.job_line}: ${down ? "not running" : state.job_state}` : "none"} bad={!!down || state.job_state === "failed"} />
         <Fact name="Tool speed" value={down ? "-" : fixed(state.tool_speed, 0, "mm/s")} />
         <Fact name="Effective override" value={down ? "-" : fixed(state.override_now, 0, "%")} hint="current speed in percent of the programmed speed, after override, job and hold" />
@@ -143,7 +144,7 @@ export function Robot() {
   const modules = useRequest(board && found ? `${board.board} modules` : "", MODULES_MS,
     () => get<{ modules: Module[] }>(board_path(board!.board, "/modules")));
   const { box, drawn, names, problem } = useScene(robot?.urdf ?? null);
-  const state = useRobotState(board?.board ?? "", scope, ({ joint }) => {
+  const state = useRobotState(board?.board ?? "", found, ({ joint }) => {
     const now = drawn.current;
     if (now) now.scene.move(in_urdf(joint.length ? joint : [], now.kinds));
   });

@@ -29,17 +29,22 @@ export interface RobotState {
   hold: boolean;
   automatic: boolean;
   may_move: boolean;  // operating mode and enabling device allow it
+  waits_for: string;  // the robot that has to leave its way; empty: none
   acknowledged: number;  // the number of the service that was accepted last
 }
 
 export interface Scope {
   name: string;  // namespace of a robot: PLC_ROBOT of PLC_ROBOT::ROBOT_ARM
   modules: string[];  // that write its variables, if known
+  shares: boolean;  // it has a variable ROBOT_SPACE: the space that it shares with other robots
 }
 
+// From the variables called ROBOT_ARM and ROBOT_SPACE.
 export function scopes_of(variables: Variable[]): Scope[] {
+  const shared = new Set(variables.map(({ name }) => name));
   return variables.filter(({ name, form }) => /(^|::)ROBOT_ARM$/.test(name) && form.kind === "struct")
-    .map(({ name, writers }) => ({ name: name.replace(/(::)?ROBOT_ARM$/, ""), modules: writers ?? [] }));
+    .map(({ name, writers }) => ({ name: name.replace(/(::)?ROBOT_ARM$/, ""), modules: writers ?? [],
+      shares: shared.has(name.replace(/ROBOT_ARM$/, "ROBOT_SPACE")) }));
 }
 
 function name_of(list: string[], state: unknown): string {
@@ -47,7 +52,7 @@ function name_of(list: string[], state: unknown): string {
 }
 
 function state_of(values: Record<string, any>, errors: Record<string, number> | undefined): RobotState {
-  const { arm = {}, module = {}, job = {} } = values;
+  const { arm = {}, module = {}, job = {}, space = {} } = values;
   return {
     joint: arm.joint ?? [], command: arm.command ?? [], speed: arm.speed ?? [], position: arm.position ?? [],
     orientation: arm.orientation ?? [], tool_speed: arm.tool_speed ?? NaN, override_now: arm.override_now ?? NaN, remaining_s: arm.to_go ?? NaN,
@@ -55,7 +60,7 @@ function state_of(values: Record<string, any>, errors: Record<string, number> | 
     job: job.name ?? "", job_line: job.nLine ?? 0,
     job_called: job.called || job.name || "", job_state: name_of(JOB_STATES, job.eState), job_message: job.cMessage ?? "",
     override_set: values.override ?? NaN, hold: !!values.hold, acknowledged: module.nAcknowledge ?? 0,
-    automatic: arm.eMode === 1, may_move: arm.bMayMove !== 0,
+    waits_for: space.cWaitsFor ?? "", automatic: arm.eMode === 1, may_move: arm.bMayMove !== 0,
   };
 }
 
@@ -64,7 +69,9 @@ function field_of(form: Form | undefined, name: string): Form | undefined {
 }
 
 // `each` is called with every frame; the numbers on the page are updated less often.
-export function useRobotState(board: string, scope: string | null, each: (state: RobotState) => void): RobotState | null {
+export function useRobotState(board: string, robot: Scope | null, each: (state: RobotState) => void): RobotState | null {
+  const scope = robot && robot.name;
+  const shares = robot !== null && robot.shares;
   const [state, set_state] = useState<RobotState | null>(null);
   useEffect(() => {
     set_state(null);
@@ -73,6 +80,7 @@ export function useRobotState(board: string, scope: string | null, each: (state:
     const names: Record<string, string> = {
       [`${prefix}ROBOT_ARM`]: "arm", [`${prefix}ROBOT_MODULE_STATE`]: "module", [`${prefix}ROBOT_JOB`]: "job",
       [`${prefix}ROBOT_OVERRIDE`]: "override", [`${prefix}ROBOT_HOLD`]: "hold",
+      ...(shares ? { [`${prefix}ROBOT_SPACE`]: "space" } : {}),
     };
     let updated = 0;
     return stream.subscribe({
@@ -87,6 +95,6 @@ export function useRobotState(board: string, scope: string | null, each: (state:
         set_state(next);
       },
     });
-  }, [board, scope]);
+  }, [board, scope, shares]);
   return state;
 }
