@@ -24,6 +24,7 @@ void TimingSearch::begin(const Segment& segment, const PathBounds& bounds) noexc
   near_ = segment.from;
   next_ = 0;
   per_knot_ = 1;
+  too_coarse_ = false;
   slower_.fill(1);
   noted_.fill(1);
   stage_ = guess(bounds) ? Stage::Look : Stage::Done;
@@ -224,7 +225,9 @@ int TimingSearch::work() noexcept {
   if (barrier_.done()) {
     PathTiming found;
     found.set(count_, shape_.data(), barrier_.squares());
-    if (std::isfinite(found.duration())) {  // else the square of a speed is negative between two places
+    const bool good = std::isfinite(found.duration());  // else the square of a speed is negative between two places
+    too_coarse_ = !good && per_knot_ == 1;
+    if (good) {
       timing_ = found;
     }
     stage_ = Stage::Done;

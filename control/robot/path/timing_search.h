@@ -29,6 +29,8 @@ class TimingSearch {
   // Searches again, with the limits also kept half way between the knots; the next time, slower where note() recorded
   // that it is too fast.
   void refine() noexcept;
+  // When done: returns whether there is no timing only because the places that were looked at are too far apart.
+  [[nodiscard]] bool too_coarse() const noexcept { return too_coarse_; }
   // Does a part of the work; returns how much that was, as the number of places whose inverse kinematics take as long.
   // Real-time safe.
   int work() noexcept;
@@ -57,6 +59,7 @@ class TimingSearch {
   Stage stage_ = Stage::Done;
   int count_ = 0;
   int per_knot_ = 1;
+  bool too_coarse_ = false;
   // The factors by which the limits of a piece are reduced, and by which they have to be reduced further.
   std::array<double, PathTiming::kMaxPieces> slower_{}, noted_{};
   int next_ = 0;

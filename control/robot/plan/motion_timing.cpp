@@ -28,6 +28,7 @@ void MotionTiming::begin(double wanted) noexcept {
     s.zone = 0;
   }
   if (s.zone <= 0) {
+    before_search_ = draft_.work.places();
     search_.begin(s, findings_.bounds());
     stage_ = Stage::Search;
   } else {
@@ -59,10 +60,20 @@ int MotionTiming::search() noexcept {
   if (found.known()) {
     draft_.segment.timing = found;
     rehearse_timing();
+  } else if (search_.too_coarse() && may_search_again()) {
+    search_.refine();
   } else {
     rehearse_profile();
   }
   return places;
+}
+
+// Returns whether a finer search, which takes twice as much work, leaves enough of it to reject the motion soon. A path
+// of the joints is not rejected any more.
+bool MotionTiming::may_search_again() const noexcept {
+  const int most = PlanningWork::kMaxRefusalWork / 2;
+  return draft_.segment.joint_path != nullptr || !draft_.work.may_refuse() ||
+         draft_.work.places() + 2 * (draft_.work.places() - before_search_) <= most;
 }
 
 void MotionTiming::rehearse_timing() noexcept {

@@ -28,6 +28,7 @@ class MotionTiming {
   enum class Stage { Search, RehearseTiming, RehearseProfile, Done };
 
   [[nodiscard]] int search() noexcept;
+  [[nodiscard]] bool may_search_again() const noexcept;
   void rehearse() noexcept;
   void rehearse_timing() noexcept;
   void rehearse_profile() noexcept;
@@ -46,6 +47,7 @@ class MotionTiming {
   TimingSearch search_;
   MotionRehearsal rehearsal_;
   Stage stage_ = Stage::Done;
+  int before_search_ = 0;  // work
   int searches_ = 1;
   int rehearsals_ = 0;
   double most_factor_ = 1;  // of the rehearsed motion: one that takes more than this many times as long is rejected

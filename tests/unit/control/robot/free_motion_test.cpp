@@ -154,6 +154,22 @@ TEST_F(Free_motion, Is_clear_and_within_limits_in_random_scenes) {
   EXPECT_GE(found, by_ompl - scenes / 50);
 }
 
+// The square of the speed was negative between two places at which the timing was searched for, so the motions had
+// none, and took 14.8 to 21.7 s.
+TEST_F(Free_motion, Has_a_timing_where_its_speed_changes_between_two_places) {
+  for (const unsigned each : {39U, 285U, 300U, 439U, 860U}) {
+    const Scene scene(each);
+    begin(scene, "MOVE FREE TO G\n");
+    int moving = 0;
+    while (!ended(false)) {
+      cell->step();
+      ASSERT_EQ(judge->look(*cell, 1), "") << "scene " << each << ", period " << cell->periods;
+      ASSERT_LT(++moving, 1000) << "scene " << each;
+    }
+    EXPECT_LT((commanded() - scene.goal).cwiseAbs().maxCoeff(), 1e-6) << "scene " << each;
+  }
+}
+
 // Whether the tick finds plans ready: the thread has to seem late.
 bool& ready() {
   static bool is = true;
