@@ -66,7 +66,6 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   void follow_path() noexcept;
   void motion_failed(const Fault& fault, int source, std::uint32_t ticket) noexcept;
   void end_motions() noexcept;
-  [[nodiscard]] bool may_resume(const KeptPath& path) noexcept;
 
   void report(Outputs& out) noexcept;
   // Returns false if the set points only follow the positions that the drives report.

@@ -200,32 +200,17 @@ void Group::end_motions() noexcept {
     return;
   }
   if (resuming_.way_back() == Resuming::Return::FromInterrupt) {
-    if (may_resume(shelf_.path())) {
+    if (resuming_.may_continue(shelf_.path())) {
       shelf_.end_come_back();
     }
   } else if (resuming_.way_back() != Resuming::Return::None) {
-    if (resuming_.way_back() == Resuming::Return::Back || may_resume(robot_.follower.kept_path())) {
+    if (resuming_.way_back() == Resuming::Return::Back || resuming_.may_continue(robot_.follower.kept_path())) {
       resuming_.end_way_back();
     }
   } else if (!robot_.job.running() && queue_.empty() && !conveyor_.on()) {
     come_to_standby();
     finish_service(robot_.states.error());
   }
-}
-
-// Requests the space for the rest of a path.
-bool Group::may_resume(const KeptPath& path) noexcept {
-  switch (space_.request(path.pieces)) {
-    case SharedSpace::Answer::Granted:
-      return true;
-    case SharedSpace::Answer::Waits:
-      break;
-    case SharedSpace::Answer::Deadlock:
-    case SharedSpace::Answer::Mismatch:
-      trip(ErrorCode::OtherRobot, 0, 1, space_.text());
-      break;
-  }
-  return false;
 }
 
 }  // namespace indurop::robot

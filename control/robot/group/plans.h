@@ -46,6 +46,7 @@ class Plans {
     waiting_ = nullptr;
   }
 
+  [[nodiscard]] SharedSpace& space() noexcept { return space_; }
   // The last request; a job that is resumed has to make it again.
   [[nodiscard]] const PlanRequest& request() const noexcept { return request_; }
   void set_request(const PlanRequest& request) noexcept { request_ = request; }

@@ -162,6 +162,15 @@ void Resuming::end_way_back() noexcept {
   continue_on_path(asked_);
 }
 
+bool Resuming::may_continue(const KeptPath& path) noexcept {
+  SharedSpace& space = plans_.space();
+  const SharedSpace::Answer answer = space.request(path.pieces);
+  if (answer == SharedSpace::Answer::Deadlock || answer == SharedSpace::Answer::Mismatch) {
+    group_.trip(ErrorCode::OtherRobot, 0, 1, space.text());
+  }
+  return answer == SharedSpace::Answer::Granted;
+}
+
 void Resuming::continue_on_path(bool asked) noexcept {
   plans_.disconnect();
   robot_.follower.resume();

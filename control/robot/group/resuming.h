@@ -41,6 +41,8 @@ class Resuming {
   // The robot is where the job left its path, or one motion further back.
   void end_way_back() noexcept;
   [[nodiscard]] bool is_near(const Joints& place) const noexcept;
+  // Requests the space for the rest of a path. Returns false if it has to wait, or if that is a deadlock.
+  [[nodiscard]] bool may_continue(const KeptPath& path) noexcept;
   // The job continues on its path; `asked`: it has to request its last plan again.
   void continue_on_path(bool asked) noexcept;
 

@@ -70,6 +70,8 @@ class SharedSpace {
   [[nodiscard]] const char* text() const noexcept { return text_; }
 
  private:
+  static constexpr double kLag = 0.25;  // s, by which drives are behind their set points at most
+
   struct Memory {
     SpaceReport own;
     SpaceCells ahead{};            // where the arm is, and where it may be before it comes to rest

@@ -44,7 +44,6 @@ class FollowedPath final : public PathAhead {
 
   [[nodiscard]] bool empty() const noexcept { return pieces_.count == 0; }
   [[nodiscard]] bool full() const noexcept { return pieces_.count == PathPieces::kMaxSegments; }
-  [[nodiscard]] int count() const noexcept { return pieces_.count; }
   [[nodiscard]] const PathPieces& pieces() const noexcept { return pieces_; }
   void clear() noexcept;
   // The path continues with this segment after its last one.

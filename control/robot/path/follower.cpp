@@ -15,7 +15,7 @@ void Follower::reset(const Joints& q) noexcept {
   }
   path_.clear();
   mode_ = mode_ == Mode::Hold ? Mode::Hold : Mode::Run;
-  speed_ = acceleration_ = 0;
+  speed_ = 0;
   q_ = q;
   past_.joints.fill(q);
   past_.moved = {};
@@ -23,9 +23,9 @@ void Follower::reset(const Joints& q) noexcept {
 
 void Follower::add(const Segment& segment, const Blend& blend) noexcept {
   path_.add(segment, blend);
-  if (path_.count() == 1) {
+  if (path_.pieces().count == 1) {
     begin_piece();
-  } else if (path_.count() == 2) {
+  } else if (path_.pieces().count == 2) {
     begin_blend();
   }
 }
@@ -226,7 +226,6 @@ void Follower::note_step(double moved) noexcept {
 void Follower::note_speed(double seconds) noexcept {
   if (!path_.segment().timed) {
     speed_ = path_.state().velocity;
-    acceleration_ = path_.state().acceleration;
     return;
   }
   double moved = 0;
@@ -237,7 +236,6 @@ void Follower::note_speed(double seconds) noexcept {
     moved = path_.note_passed();
   }
   const double speed = moved / seconds;
-  acceleration_ = (speed - speed_) / seconds;
   speed_ = speed;
 }
 

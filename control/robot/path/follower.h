@@ -66,7 +66,6 @@ class Follower {
   [[nodiscard]] bool at_rest() const noexcept { return idle() || path_.state().velocity <= 0; }
   // Part of full speed.
   [[nodiscard]] double speed() const noexcept { return idle() ? 0 : speed_; }
-  [[nodiscard]] double acceleration() const noexcept { return idle() ? 0 : acceleration_; }
   // Returns the time to the end of the present path at the present conditions, in s.
   [[nodiscard]] double to_go() const noexcept;
   // Returns the place on the present motion.
@@ -108,9 +107,8 @@ class Follower {
   PaceChange pace_;
   double time_ = 0;    // in the profile
   double period_ = 0;  // the last one
-  // Speed and acceleration along the path in seconds at full speed, whether the piece has a timing or not.
+  // Speed along the path in seconds at full speed, whether the piece has a timing or not.
   double speed_ = 0;
-  double acceleration_ = 0;
   Joints q_ = Joints::Zero();
 };
 

@@ -29,7 +29,7 @@ class TimingSearch {
   // Searches again, with the limits also kept half way between the knots; the next time, slower where note() recorded
   // that it is too fast.
   void refine() noexcept;
-  // When done: returns whether there is no timing only because the places that were looked at are too far apart.
+  // When done: returns whether there is no timing only because the places at which limits are kept are too far apart.
   [[nodiscard]] bool too_coarse() const noexcept { return too_coarse_; }
   // Does a part of the work; returns how much that was, as the number of places whose inverse kinematics take as long.
   // Real-time safe.

@@ -47,11 +47,11 @@ void ArmCells::add_way(const Joints& from, const Joints& to, int tool, double mo
     add((from + to) / 2, moved / 2, tool, more, cells);
     return;
   }
-  const double places = std::clamp(std::ceil(most / grid_.slack()), 1.0, kMostPlaces);
+  const int places = static_cast<int>(std::clamp(std::ceil(most / grid_.slack()), 1.0, kMostPlaces));
   Joints around = others;
   around[main] = moved[main] / places / 2;
-  for (double place = 0.5; place < places; ++place) {
-    add(from + (to - from) * (place / places), around, tool, more, cells);
+  for (int i = 0; i < places; ++i) {
+    add(from + (to - from) * ((i + 0.5) / places), around, tool, more, cells);
   }
 }
 

@@ -22,6 +22,10 @@ double distance_from(const PlacedSolid& solid, const Vec3& point) noexcept {
   return std::hypot(across, std::max(std::abs(local.z()) - solid.half.z(), 0.0));
 }
 
+Vec3 corner_of(const std::vector<double>& box, std::size_t first) {
+  return Vec3(box[first], box[first + 1], box[first + 2]) / 1000;
+}
+
 Pose base_of(const std::vector<double>& numbers) {
   Pose base;
   if (numbers.size() == 6) {
@@ -37,13 +41,11 @@ std::uint64_t column_of(const SpaceCells& cells, int x, int y) noexcept {
 
 }  // namespace
 
-CellGrid::CellGrid(const std::vector<double>& box, const std::vector<double>& base) : base_(base_of(base)) {
-  const Vec3 one(box[0], box[1], box[2]);
-  const Vec3 other(box[3], box[4], box[5]);
-  corner_ = one.cwiseMin(other) / 1000;
-  edges_ = ((one - other).cwiseAbs() / 1000).cwiseQuotient(Vec3(kCount[0], kCount[1], kCount[2]));
-  half_diagonal_ = edges_.norm() / 2;
-}
+CellGrid::CellGrid(const std::vector<double>& box, const std::vector<double>& base)
+    : corner_(corner_of(box, 0).cwiseMin(corner_of(box, 3))),
+      edges_((corner_of(box, 0) - corner_of(box, 3)).cwiseAbs().cwiseQuotient(Vec3(kCount[0], kCount[1], kCount[2]))),
+      half_diagonal_(edges_.norm() / 2),
+      base_(base_of(base)) {}
 
 CellGrid::Range CellGrid::range(const PlacedSolid& body, double more, int axis) const noexcept {
   const double half = body.reach(Vec3::Unit(axis)) + more;

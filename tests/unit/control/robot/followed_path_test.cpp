@@ -87,7 +87,7 @@ TEST_F(Followed_path, Is_kept_and_taken_where_it_was_left_and_followed_more_gent
 
   sut.take(kept);
   EXPECT_FALSE(kept.known());
-  EXPECT_EQ(sut.count(), 2);
+  EXPECT_EQ(sut.pieces().count, 2);
   EXPECT_DOUBLE_EQ(sut.state().position, 0.4);
   EXPECT_DOUBLE_EQ(sut.state().velocity, 0);
   EXPECT_DOUBLE_EQ(sut.blend().zone, 0.1);

@@ -74,6 +74,10 @@ class Random_spaces : public testing::Test {
         if (disturbs && in(0, 1) < 0.3 * period_ms / 1000) {
           disturb(sut[k], random);
         }
+        if (!disturbs && sut[k].out.state == GroupState::ErrorStop) {
+          EXPECT_EQ(sut[k].out.error, ErrorCode::OtherRobot)
+              << "seed " << seed << ", period " << i << ", robot " << k << ": " << sut[k].out.job.message;
+        }
         recover(sut, k);
       }
       sut.step();

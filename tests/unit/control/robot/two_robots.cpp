@@ -111,7 +111,7 @@ bool SharingRobots::holds_its_bodies(std::size_t i) const {
   for (const ReferencePlace& place : places(i)) {
     // Points of the body: corners of a box around it, brought onto it.
     for (int n = 0; n < 27; ++n) {
-      const Vec3 corner = Vec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1) * radius(*place.solid);
+      const Vec3 corner = Eigen::Vector3i(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1).cast<double>() * radius(*place.solid);
       const Vec3 point = 1000 * (place.frame * place.solid->nearest(corner));
       std::array<int, 3> cell{};
       for (std::size_t k = 0; k < 3; ++k) {
