@@ -112,6 +112,7 @@ class PlantCheckRun {
     }
     check_writers(uses, set_by_hand, report);
     check_ages(context, result_.routes);
+    check_pools(context);
     check_security(plant_, options_, report);
     report.add_summary(between_);
   }

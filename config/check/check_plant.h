@@ -44,8 +44,9 @@ struct PlantCheck {
 std::filesystem::path keys_folder(const Plant& plant, const std::string& board);
 
 // Checks every board, then the rules between them: one owner per variable, a writer for every reader, equal types, data
-// age across boards. Replaces names in Plant::variables by full names. A board's schema is extended by the variables
-// that its modules name in <access> and that only modules of other boards declare.
+// age across boards, pools that are sent between them. Replaces names in Plant::variables and Plant::pools by full
+// names. A board's schema is extended by the variables that its modules name in <access> and that only modules of other
+// boards declare.
 PlantCheck check_plant(Plant& plant, const CheckOptions& options);
 
 }  // namespace indurop::config

@@ -25,6 +25,8 @@ const VariableRule* rule_for(const Plant& plant, const std::string& variable);
 
 // Determines the owner of each variable that has a writer, and the boards that need it.
 std::vector<Route> find_routes(PlantContext& context, PlantCheck& result);
+// Checks the pools that are sent between boards, and replaces their names by full names.
+void check_pools(PlantContext& context);
 // Checks that the keys of the boards and of the plant exist; reports if the plant is open.
 void check_security(const Plant& plant, const CheckOptions& options, base::Diagnostics& report);
 // Determines the age of values that come from other boards. Fills Route::oldest.

@@ -24,6 +24,17 @@ struct Board {
   base::SourcePlace place;
 };
 
+// A pool of one board whose chunks are also published in the pool of the same name on other boards.
+struct PoolRoute {
+  std::string name;  // full name after check_plant()
+  std::string from;
+  std::vector<std::string> to;
+  base::Nanos every{};  // minimum time between two chunks; 0: all that the network takes
+  base::SourcePlace place;
+  base::SourcePlace from_place;
+  std::vector<base::SourcePlace> to_places;  // one per `to`
+};
+
 struct Plant : TypeFiles {
   std::filesystem::path file;
   std::string name;
@@ -40,6 +51,7 @@ struct Plant : TypeFiles {
   SimulatedNetwork network;                           // between its boards in a simulation
   std::vector<Board> boards;                          // in file order
   std::vector<VariableRule> variables;
+  std::vector<PoolRoute> pools;
   static constexpr int kDefaultDomain = 77;
 };
 

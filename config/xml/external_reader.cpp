@@ -13,14 +13,6 @@ namespace {
 
 constexpr base::Nanos kLongestEvery{std::chrono::hours(1)};
 
-std::string every_problem(const std::string& text, base::Nanos& every) {
-  const base::DurationText read = base::read_duration(text, false);
-  every = read.value.value_or(base::Nanos::zero());
-  return every > kLongestEvery
-             ? base::in_quotes(text) + " is too long; write at most " + base::format_duration(kLongestEvery)
-             : read.problem;
-}
-
 std::string reliability_problem(const std::string& text) {
   return text == "reliable" || text == "best-effort"
              ? std::string{}
@@ -41,6 +33,14 @@ std::string external_problem(const std::string& text, VariableRule::External& ex
 }
 
 }  // namespace
+
+std::string every_problem(const std::string& text, base::Nanos& every) {
+  const base::DurationText read = base::read_duration(text, false);
+  every = read.value.value_or(base::Nanos::zero());
+  return every > kLongestEvery
+             ? base::in_quotes(text) + " is too long; write at most " + base::format_duration(kLongestEvery)
+             : read.problem;
+}
 
 std::optional<int> domain_of(const base::Element& element, const std::string& text, const char* more,
                              base::Diagnostics& report) {

@@ -23,6 +23,8 @@ std::optional<int> domain_of(const base::Element& element, const std::string& te
 std::string optional_attribute(const base::Element& element, const char* name,
                                const std::function<std::string(const std::string&)>& problem,
                                base::Diagnostics& report);
+// Reads the value of an attribute `every`: a time up to one hour. Returns what is wrong with it; empty if nothing is.
+std::string every_problem(const std::string& text, base::Nanos& every);
 // Returns true if this attribute is "on"; it may be "on", "off" or absent.
 bool is_on(const base::Element& element, const char* name, base::Diagnostics& report);
 // Reads one <types>.

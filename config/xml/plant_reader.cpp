@@ -15,6 +15,7 @@
 #include "config/xml/element_rules.h"
 #include "config/xml/external_reader.h"
 #include "config/xml/plant_rules.h"
+#include "config/xml/pool_reader.h"
 #include "config/xml/values.h"
 #include "core/base/text.h"
 
@@ -93,9 +94,10 @@ class PlantReader {
     void (PlantReader::*read)(const base::Element&);
   };
   static std::span<const Known> known_elements() {
-    static constexpr std::array<Known, 10> kKnown{{
+    static constexpr std::array<Known, 11> kKnown{{
         {"board", true, &PlantReader::read_board},
         {"variable", true, &PlantReader::read_variable},
+        {"pool", true, &PlantReader::read_pool},
         {"domain", false, &PlantReader::read_domain},
         {"external", false, &PlantReader::read_external},
         {"multicast", false, &PlantReader::read_multicast},
@@ -234,12 +236,19 @@ class PlantReader {
     }
   }
 
+  void read_pool(const base::Element& e) {
+    if (auto route = read_pool_route(e, pools_, report_)) {
+      plant_.pools.push_back(std::move(*route));
+    }
+  }
+
   const base::Element& root_;
   Plant& plant_;
   base::Diagnostics& report_;
   std::filesystem::path folder_;
   FirstPlaces given_;
   FirstPlaces variables_;
+  FirstPlaces pools_;
   PlantPlaces places_;
   std::set<std::string> misspelt_;  // boards with an unknown element that was probably intended as <module>
   bool boards_given_ = false;

@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "config/xml/module_file.h"
+#include "config/xml/pool_reader.h"
 #include "core/base/text.h"
 
 namespace indurop::config {
@@ -222,6 +223,7 @@ void check_plant_rules(const Plant& plant, const PlantPlaces& places, base::Diag
   check_names(plant, report);
   check_addresses(plant, report);
   check_owners(plant, report);
+  check_pool_boards(plant, report);
   if (plant.external_domain == plant.domain) {
     const bool given = places.external.line != 0;
     report.error(given ? places.external : places.domain,

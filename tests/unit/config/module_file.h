@@ -46,7 +46,7 @@ class ElfWriter {
     section(".dynstr", SHT_STRTAB, strings_, 0);
     section(".dynsym", SHT_DYNSYM, symbols, sizeof(Elf64_Sym));
     section(".dynamic", SHT_DYNAMIC, std::string(sizeof(Elf64_Dyn), '\0'), sizeof(Elf64_Dyn));
-    if (!spec_.schema.variables.empty() || !spec_.schema.functions.empty()) {
+    if (!spec_.schema.variables.empty() || !spec_.schema.functions.empty() || !spec_.schema.pools.empty()) {
       section(".indurop.schema", SHT_PROGBITS, schema::to_json(spec_.schema) + "\n", 0);
     }
     section(".indurop.access", SHT_PROGBITS, access_records(), 0);
