@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -26,6 +27,7 @@ using std::chrono::milliseconds;
 using tools::Failure;
 
 constexpr milliseconds kWaitForNode{300};
+constexpr unsigned kLongestEnd = 10;  // s
 
 std::chrono::nanoseconds period_of(double hz) {
   return hz > 0 ? std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / hz)) : std::chrono::nanoseconds(0);
@@ -96,10 +98,13 @@ Result<void, Failure> PoolDoor::find_pools() {
                                                    : fmt::format("Its pools: {}", fmt::join(known, ", "))));
     }
   };
-  std::ranges::for_each(options_.send, full_name);
+  for (const std::string& text : options_.send) {
+    std::string ignored;  // checked with the options
+    full_name(sent_.emplace_back(read_sent_pool(text, ignored)).name);
+  }
   std::ranges::for_each(options_.receive, full_name);
-  for (const std::string& name : options_.send) {
-    if (std::ranges::count(options_.send, name) > 1 || std::ranges::count(options_.receive, name) > 0) {
+  for (const auto& [name, every_ns] : sent_) {
+    if (std::ranges::count(sent_, name, &SentPool::name) > 1 || std::ranges::count(options_.receive, name) > 0) {
       problems.push_back(
           fmt::format("{} is named twice: a pool is either sent or received, else its chunks would go "
                       "round and round",
@@ -125,13 +130,14 @@ bool PoolDoor::join(base::StopSignal& stop, const dds::NetworkSettings& network)
   }
 }
 
-Result<void, Failure> PoolDoor::open() {
-  const auto open_one = [this](auto& end) -> Result<void, Failure> {
-    const auto opened = end.open(participant_.get());
+Result<void, Failure> PoolDoor::open(const std::string& plant) {
+  const auto open_one = [this, &plant](auto& end) -> Result<void, Failure> {
+    const auto opened = end.open(participant_.get(), plant);
     return opened ? Result<void, Failure>() : Failure{kFailed, opened.error().text};
   };
-  for (const std::string& name : options_.send) {
-    senders_.push_back(std::make_unique<Sender>(node_, name, period_of(options_.hz), log_));
+  for (const SentPool& sent : sent_) {
+    const auto every = sent.every_ns < 0 ? period_of(options_.hz) : std::chrono::nanoseconds(sent.every_ns);
+    senders_.push_back(std::make_unique<Sender>(node_, sent.name, every, log_));
     if (auto opened = open_one(*senders_.back()); !opened) {
       return opened;
     }
@@ -200,7 +206,8 @@ Result<void, Failure> PoolDoor::run(base::StopSignal& stop) {
   if (!join(stop, *network)) {
     return {};
   }
-  if (auto opened = open(); !opened) {
+  // Keys separate plants already, and permit no partition.
+  if (auto opened = open(network->security.on() ? std::string() : options_.plant); !opened) {
     return opened;
   }
   log_.info("DDS domain {}{}", network->domain, network->security.on() ? ", with keys" : "");
@@ -212,6 +219,8 @@ Result<void, Failure> PoolDoor::run(base::StopSignal& stop) {
       report();
     }
   }
+  // An agent that was killed cannot kill this program: it ends even if DDS does not let it.
+  (void)::alarm(kLongestEnd);
   end_threads();
   report();
   return {};

@@ -38,13 +38,14 @@ class PoolDoor {
   // Returns false after a signal.
   bool wait_for(base::StopSignal& stop, const std::string& what);
   bool join(base::StopSignal& stop, const dds::NetworkSettings& network);
-  Result<void, tools::Failure> open();
+  Result<void, tools::Failure> open(const std::string& plant);
   void start_threads();
   void end_threads() noexcept;
   void report() const;
 
   DoorOptions options_;
   std::string node_;
+  std::vector<SentPool> sent_;
   base::Log log_;
   std::string waited_for_;
   std::atomic<bool> stop_{false};

@@ -40,8 +40,11 @@ Receiver::Receiver(std::string node, std::string pool, const base::Log& log)
   wake_.init(false);
 }
 
-Result<void, base::Problem> Receiver::open(dds::Handle participant) {
+Result<void, base::Problem> Receiver::open(dds::Handle participant, const std::string& plant) {
   dds::QosChoice choice;
+  if (!plant.empty()) {
+    choice.partitions = {partition_of(plant)};
+  }
   choice.for_late_ones = false;
   choice.depth = kWaitingParts;
   reader_ =

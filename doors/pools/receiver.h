@@ -30,8 +30,9 @@ class Receiver final : private ChunkPlaces {
   Receiver& operator=(const Receiver&) = delete;
   ~Receiver() override = default;
 
-  // Errors: DDS refuses the topic, or the keys do not permit it.
-  Result<void, base::Problem> open(dds::Handle participant);
+  // `plant`: plant whose senders are received; empty: every sender. Errors:
+  // DDS refuses the topic, or the keys do not permit it.
+  Result<void, base::Problem> open(dds::Handle participant, const std::string& plant);
   // Receives until `stop` is set; wake() ends its waits.
   void run(const std::atomic<bool>& stop);
   void wake() noexcept { wake_.wake(); }

@@ -41,13 +41,20 @@ std::string topic_of(std::string_view pool) {
   return topic;
 }
 
+std::string partition_of(std::string_view plant) {
+  return "indurop/" + std::string(plant);
+}
+
 Sender::Sender(std::string node, std::string pool, std::chrono::nanoseconds least, const base::Log& log)
     : pool_(std::move(node), std::move(pool)), least_(least), log_(log), topic_(topic_of(pool_.name())) {
   wake_.init(false);
 }
 
-Result<void, base::Problem> Sender::open(dds::Handle participant) {
+Result<void, base::Problem> Sender::open(dds::Handle participant, const std::string& plant) {
   dds::QosChoice choice;
+  if (!plant.empty()) {
+    choice.partitions = {"", partition_of(plant)};  // tools need no partition
+  }
   choice.for_late_ones = false;
   choice.depth = 0;  // in_flight limits what is kept; with a limit by number, a writer overtakes its readers
   choice.block_ns = std::chrono::nanoseconds(kPartPatience).count();

@@ -23,6 +23,8 @@ namespace indurop::pool_door {
 
 // "cell::Vision::camera" has the topic "cell/Vision/camera", as variables have (docs/external.md).
 std::string topic_of(std::string_view pool);
+// DDS partition of the pools of a plant.
+std::string partition_of(std::string_view plant);
 
 class Sender {
  public:
@@ -32,8 +34,9 @@ class Sender {
   Sender& operator=(const Sender&) = delete;
   ~Sender() = default;
 
-  // Errors: DDS refuses the topic, or the keys do not permit it.
-  Result<void, base::Problem> open(dds::Handle participant);
+  // `plant`: plant whose receivers get the chunks, besides tools; empty: every receiver without a plant. Errors:
+  // DDS refuses the topic, or the keys do not permit it.
+  Result<void, base::Problem> open(dds::Handle participant, const std::string& plant);
   // Sends until `stop` is set; wake() ends its waits.
   void run(const std::atomic<bool>& stop);
   void wake() noexcept { wake_.wake(); }

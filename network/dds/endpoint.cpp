@@ -32,6 +32,13 @@ Qos make_qos(const QosChoice& choice) {
   if (!choice.mark.empty()) {
     dds_qset_userdata(qos.get(), choice.mark.data(), choice.mark.size());
   }
+  if (!choice.partitions.empty()) {
+    std::vector<const char*> names;
+    for (const std::string& name : choice.partitions) {
+      names.push_back(name.c_str());
+    }
+    dds_qset_partition(qos.get(), static_cast<std::uint32_t>(names.size()), names.data());
+  }
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   return qos;
 }

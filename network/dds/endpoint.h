@@ -10,6 +10,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/rt/signal_word.h"
 #include "network/dds/entity.h"
@@ -30,6 +31,8 @@ struct QosChoice {
   bool written = false;  // silent is who writes nothing, even if DDS answers for it; it is alive again with a sample
   bool dispose_at_end = false;  // values of a writer that leaves are disposed, not only no longer alive
   std::string_view mark = {};   // mark of the writer that readers can check, see is_marked()
+  // DDS partitions: an end is matched only with ends that share one. "" is that of ends without a partition.
+  std::vector<std::string> partitions = {};
 };
 Qos make_qos(const QosChoice& choice);
 

@@ -13,7 +13,7 @@ from harness import LARGE, SMALL, Setting, expect, wait_for
 
 
 def sent_on_demand(test):
-    test.pools("send", "a", "--send", LARGE, "--send", "small")
+    test.pools("send", "a", "--plant", "cell", "--send", LARGE, "--send", "small")
     wait_for(lambda: test.says("send", "sends " + SMALL), "the sender has the pools")
     test.grows("a", "written", 10, "the writer writes")
     wait_for(lambda: test.counts("send"), "a report")
@@ -22,8 +22,17 @@ def sent_on_demand(test):
     expect(len(user) == 1 and user[0]["seen"] == 0, "chunks were read without a reader: " + str(user))
 
 
+def hear_no_other_plant(test):
+    """A plant built from the same .glb in the same network."""
+    test.pools("stranger", "b", "--plant", "cell2", "--receive", LARGE)
+    wait_for(lambda: test.says("stranger", "receives topic"), "the receiver has the pool")
+    time.sleep(3)  # others discover each other in less
+    expect(test.counts("stranger")[LARGE]["senders"] == 0, "a sender of another plant is heard")
+    test.end("stranger")
+
+
 def reach_another_node(test):
-    test.pools("receive", "b", "--receive", LARGE, "--receive", SMALL)
+    test.pools("receive", "b", "--plant", "cell", "--receive", LARGE, "--receive", SMALL)
     test.grows("b", "large_seen", 20, "chunks of many parts reach the other node")
     test.grows("b", "small_seen", 20, "chunks of one part reach the other node")
     error_ms = test.value("b", "age_error_ns") / 1e6
@@ -80,7 +89,7 @@ def lossy_network(test):
 
 def rate(test):
     test.end("send")
-    test.pools("rate", "a", "--send", LARGE, "--hz", "4")
+    test.pools("rate", "a", "--plant", "cell", "--send", LARGE + "@4Hz", "--send", SMALL, "--hz", "1000")
     wait_for(lambda: test.counts("rate").get(LARGE, {}).get("sent", 0) > 0 and test.says("rate", "sends " + LARGE),
              "chunks are sent")
     begin = time.monotonic()
@@ -97,6 +106,7 @@ def main():
         test.start_node("a", [("pools_writer.exe", "50ms")])
         test.start_node("b", [("pools_checker.exe", "10ms")])
         sent_on_demand(test)
+        hear_no_other_plant(test)
         reach_another_node(test)
         reach_a_subscriber(test, test.build / "pools_subscriber", "Cyclone DDS")
         if (test.build / "pools_fastdds_subscriber").exists():
