@@ -20,6 +20,7 @@ using base::Element;
 
 constexpr const char* kFileNameElement = "filename";
 constexpr const char* kModuleElement = "module";
+constexpr const char* kPoolElement = "pool";
 // What of a module another schedule may change.
 constexpr std::array<std::string_view, 8> kScheduleElements{"period", "offset",   "deadline", "wcet",
                                                             "budget", "priority", "overrun",  "after"};
@@ -99,7 +100,7 @@ class ManifestComparison {
       const bool of_schedule =
           element.name == kModuleElement
               ? std::find(kScheduleElements.begin(), kScheduleElements.end(), child.name) != kScheduleElements.end()
-              : child.name == kModuleElement;
+              : child.name == kModuleElement || (element.name == "plant" && child.name == kPoolElement);
       if (compared_ == ComparedElements::All || !of_schedule) {
         children.push_back(&child);
       }

@@ -12,7 +12,7 @@ namespace indurop::config {
 enum class ComparedElements {
   All,
   // Leaves out what another schedule may change: times, priorities and overrun policies of modules, their order in the
-  // manifest, and modules that only one of the two has.
+  // manifest, and modules that only one of the two has. Also pools that are sent between boards, which no node reads.
   NotSchedule,
 };
 

@@ -11,9 +11,11 @@
 #include "deploy/agent/board_commands.h"
 #include "deploy/agent/board_deployment.h"
 #include "deploy/agent/board_link.h"
+#include "deploy/agent/board_pools.h"
 #include "deploy/agent/board_process.h"
 #include "deploy/agent/board_recorder.h"
 #include "deploy/agent/board_verify.h"
+#include "deploy/agent/both_clocks.h"
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/agent/fetcher.h"
 #include "deploy/agent/offer.h"
@@ -38,27 +40,6 @@ std::string text_of(const Result<void, base::Problem>& result) {
   return result ? std::string{} : result.error().text;
 }
 
-// Both clocks at the same moment: the tick of an exchange depends on it, and this thread may be preempted in between.
-struct BothClocks {
-  rt::MonoTime mono;
-  rt::WallTime wall;
-};
-BothClocks both_clocks() {
-  constexpr int kTries = 10;
-  constexpr std::chrono::microseconds kClose{20};
-  BothClocks best;
-  std::chrono::nanoseconds closest = std::chrono::hours(1);
-  for (int i = 0; i < kTries && closest > kClose; ++i) {
-    const rt::MonoTime before = rt::MonoClock::now();
-    const rt::WallTime wall = rt::WallClock::now();
-    if (const auto apart = rt::MonoClock::now() - before; apart < closest) {
-      closest = apart;
-      best = {before, wall};
-    }
-  }
-  return best;
-}
-
 class Agent {
  public:
   Agent(const AgentOptions& options, const base::Log& log, AgentState& state, AgentState& platform,
@@ -76,18 +57,19 @@ class Agent {
             options.board, node_arguments(options), {state.folder() / "blackbox", options.board},
             [this](const std::string& id) { return verify(id); }, log),
         change_(state, options.board, deployment_, process_, log),
+        pools_(options.board, pools_program(), pools_arguments(options), options.link.network.one_host, {}, log),
         recorder_(options.board, base::program_folder() / "indurop", {}, log),
         alarms_(options.board, log),
         board_commands_(options.board, self_, keys_, state, process_, recorder_, log),
         values_(options.board),
         verify_(state),
         server_(self_,
-                [this](const std::string& name) { return offer(name, options_.board, state_, values_, verify_); }),
+                [this](const std::string& name) {
+                  return offer(name, {options_.board, state_, values_, verify_, pools_});
+                }),
         net_(link_settings(options, self_), keys_, log),
         others_(options.board, log),
-        platform_(options.board, self_, running, platform, keys_, process_, log) {
-    host_ = host_name();
-  }
+        platform_(options.board, self_, running, platform, keys_, process_, log) {}
 
   int run(base::StopSignal& signals) {
     change_.resume();
@@ -98,6 +80,7 @@ class Agent {
       const rt::MonoTime now = rt::MonoClock::now();
       service_manager_.alive(now);
       process_.step(now);
+      pools_.step(process_.to_run(), process_.runs_it(), now);
       recorder_.step(now);
       alarms_.step(now);
       connect(now);
@@ -110,6 +93,7 @@ class Agent {
       platform_.step(net_.platform(), state_.committed(), transaction_.phase() == Phase::Steady, now);
       if (platform_.leaves()) {
         net_.leave();
+        pools_.end();
         platform_.leave();
       }
       pause(signals);
@@ -117,6 +101,7 @@ class Agent {
     log_.info("stopping: signal {}", signals.received());
     service_manager_.stopping();
     net_.leave();  // the other boards see at once that this board leaves
+    pools_.end();
     process_.end();
     return signals.received() == SIGINT ? kInterrupted : kOk;
   }
@@ -305,7 +290,7 @@ class Agent {
     static_cast<NodeFigures&>(out) = process_.figures();
     out.board = options_.board;
     out.agent = self_;
-    out.host = host_;
+    out.host = host_name();
     out.release = platform_.version();
     out.deployer = order.deployer;
     out.deployer_host = order.host;
@@ -320,6 +305,9 @@ class Agent {
     }
     if (out.message.empty() && process_.condition() != NodeCondition::Running) {
       out.message = process_.reason();
+    }
+    if (out.message.empty()) {
+      out.message = pools_.problem();
     }
     if (out.message.empty() && !committed.current.empty() && !deployment_.belongs(committed.members)) {
       out.message = fmt::format("no longer part of plant {}", committed.plant);
@@ -351,7 +339,6 @@ class Agent {
   const base::Log& log_;
   AgentState& state_;
   std::uint64_t self_;
-  std::string host_;
   DeployKeys keys_;
   BoardDeployment deployment_;
   BoardTransaction transaction_;
@@ -359,6 +346,7 @@ class Agent {
   Fetcher fetcher_;
   BoardProcess process_;
   BoardChange change_;
+  BoardPools pools_;
   BoardRecorder recorder_;
   BoardAlarms alarms_;
   BoardCommands board_commands_;

@@ -2,12 +2,15 @@
 #include "deploy/agent/board_deployment.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 
 #include "config/check/check_plant.h"
 #include "config/xml/plant_reader.h"
+#include "core/base/diagnostics.h"
 #include "core/rt/clock.h"
+#include "deploy/agent/board_pools.h"
 
 namespace indurop::deploy {
 namespace {
@@ -34,6 +37,25 @@ Result<void, Problem> first_error(const std::vector<base::Diagnostic>& diagnosti
     return {};
   }
   return Problem{more > 0 ? fmt::format("{} (and {} more)", text, more) : text};
+}
+
+// Reports pools of the board that nothing would send or receive, because the program is missing.
+void check_pools_program(const config::Plant& plant, const std::string& board,
+                         std::vector<base::Diagnostic>& diagnostics) {
+  const std::filesystem::path program = pools_program();
+  if (::access(program.c_str(), X_OK) == 0) {
+    return;
+  }
+  base::Diagnostics report(plant.file.string(), diagnostics);
+  for (const config::PoolRoute& route : plant.pools) {
+    const bool gets = std::find(route.to.begin(), route.to.end(), board) != route.to.end();
+    if (route.from == board || gets) {
+      report.error(route.place,
+                   fmt::format("board {} cannot {} the pool '{}', because {} is missing there; install all "
+                               "of the package indurop on it",
+                               board, gets ? "receive" : "send", route.name, program.string()));
+    }
+  }
 }
 
 HistoryEntry history_of(const Order& order, const std::string& plant, const std::string& outcome,
@@ -93,7 +115,9 @@ Result<void, Problem> BoardDeployment::check(const Order& order) {
   if (!here) {
     return Problem{fmt::format("the plant has no board {}", board_)};
   }
-  return first_error(checked.diagnostics);
+  std::vector<base::Diagnostic> diagnostics = checked.diagnostics;
+  check_pools_program(read.plant, board_, diagnostics);
+  return first_error(diagnostics);
 }
 
 Result<void, Problem> BoardDeployment::commit(const Order& order) {

@@ -60,6 +60,14 @@ class BoardProcess {
   void release();
   [[nodiscard]] const std::string& held() const noexcept { return held_; }  // the reason, empty: not held
   [[nodiscard]] bool has_node() const noexcept { return pid_ > 0; }
+  // Returns the manifest of what the node runs or is to run again; empty: there is none, or the node stays down.
+  [[nodiscard]] std::filesystem::path to_run() const {
+    return held_.empty() && condition_ != NodeCondition::Failed ? wanted_ : std::filesystem::path();
+  }
+  // Returns true if the node runs that.
+  [[nodiscard]] bool runs_it() const noexcept {
+    return condition_ == NodeCondition::Running && running_ == deployment_;
+  }
   // Verifies the deployment that should run.
   [[nodiscard]] std::string verify() const { return deployment_.empty() ? std::string{} : verify_(deployment_); }
   void step(rt::MonoTime now);

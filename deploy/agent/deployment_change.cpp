@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "config/pool_arguments.h"
 #include "config/xml/document.h"
 #include "config/xml/manifest_difference.h"
 #include "config/xml/plant_reader.h"
@@ -49,6 +50,7 @@ class DeploymentSide {
     return side;
   }
 
+  [[nodiscard]] const config::Plant& plant() const noexcept { return plant_; }
   [[nodiscard]] const base::Element& document() const noexcept { return document_; }
   // Modules of the board; null: the plant does not have it.
   [[nodiscard]] const std::vector<config::Module>* modules(const std::string& board) const {
@@ -143,6 +145,28 @@ void plan_modules(const DeploymentSide& before, const DeploymentSide& after, con
   }
 }
 
+// indurop-pools goes on if nothing changes for it, else it is started again, for all pools of the board.
+void plan_pools(const config::Plant& before, const config::Plant& after, const std::string& board, BoardPlan& plan) {
+  const auto old = config::pools_of(before, board);
+  const auto now = config::pools_of(after, board);
+  const bool same = config::pool_arguments(before, board, false) == config::pool_arguments(after, board, false);
+  const auto has = [](const std::vector<config::BoardPool>& pools, const std::string& name) {
+    return std::any_of(pools.begin(), pools.end(), [&name](const config::BoardPool& one) { return one.pool == name; });
+  };
+  for (const config::BoardPool& one : now) {
+    plan.pools.push_back({one.pool,
+                          !has(old, one.pool) ? PlanAct::Added
+                          : same              ? PlanAct::Kept
+                                              : PlanAct::Restarted,
+                          one.text});
+  }
+  for (const config::BoardPool& one : old) {
+    if (!has(now, one.pool)) {
+      plan.pools.push_back({one.pool, PlanAct::Ended, ""});
+    }
+  }
+}
+
 }  // namespace
 
 DeploymentChange change_between(const AgentState& state, const std::string& board, const std::string& from,
@@ -155,6 +179,7 @@ DeploymentChange change_between(const AgentState& state, const std::string& boar
     return change;
   }
   plan_modules(*before, *after, board, running, change);
+  plan_pools(before->plant(), after->plant(), board, change.plan);
   if (change.plan.restart.empty()) {
     change.plan.restart =
         config::manifest_difference(before->document(), after->document(), config::ComparedElements::NotSchedule);

@@ -10,8 +10,8 @@
 
 namespace indurop::deploy {
 
-std::optional<BlobServer::Blob> offer(const std::string& name, const std::string& board, const AgentState& state,
-                                      BoardValues& values, BoardVerify& verify) {
+std::optional<BlobServer::Blob> offer(const std::string& name, const Offered& from) {
+  const auto& [board, state, values, verify, pools] = from;
   const auto text = [](std::string what) { return BlobServer::Blob{{}, std::move(what)}; };
   if (name == kHistoryBlob) {
     return text(state.history_text());
@@ -28,6 +28,10 @@ std::optional<BlobServer::Blob> offer(const std::string& name, const std::string
   }
   if (name == kMessagesBlob) {
     return text(messages_text(board));
+  }
+  if (name == kPoolsBlob) {
+    const std::string what = pools.text();
+    return text(what.empty() ? "{}" : what);
   }
   if (name == kAlarmsBlob) {
     return text(alarms_text(board));

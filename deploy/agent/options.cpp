@@ -39,6 +39,10 @@ std::vector<std::string> node_arguments(const AgentOptions& options) {
   return words;
 }
 
+std::vector<std::string> pools_arguments(const AgentOptions& options) {
+  return options.quiet ? std::vector<std::string>{"--quiet"} : std::vector<std::string>{};
+}
+
 LinkSettings link_settings(const AgentOptions& options, std::uint64_t self) {
   LinkSettings settings = options.link;
   settings.self = self;

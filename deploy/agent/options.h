@@ -25,6 +25,8 @@ struct AgentOptions {
 
 // Returns the arguments for every node that the agent starts.
 std::vector<std::string> node_arguments(const AgentOptions& options);
+// Returns the arguments for indurop-pools, in addition to those of the manifest.
+std::vector<std::string> pools_arguments(const AgentOptions& options);
 // `self`: session of the agent.
 LinkSettings link_settings(const AgentOptions& options, std::uint64_t self);
 

@@ -32,6 +32,24 @@ const PlanWord& plan_word_of(PlannedAct act) noexcept {
   return *std::find_if(kPlanWords.begin(), kPlanWords.end(), [act](const PlanWord& one) { return one.act == act; });
 }
 
+// `key`: member with the name. Returns false if the list has something else.
+template <class Plan>
+bool read_plans(const Json& list, const char* key, std::string Plan::*name, std::vector<Plan>& plans) {
+  for (const Json& one : list.values()) {
+    Plan& plan = plans.emplace_back();
+    std::string word;
+    base::read(one, "act", word);
+    const auto* const found =
+        std::find_if(kPlanWords.begin(), kPlanWords.end(), [&](const PlanWord& known) { return known.word == word; });
+    if (found == kPlanWords.end() || !base::read(one, key, plan.*name)) {
+      return false;
+    }
+    plan.act = found->act;
+    base::read(one, "why", plan.why);
+  }
+  return true;
+}
+
 }  // namespace
 
 const char* to_text(ModulePlan::Act act) noexcept {
@@ -43,11 +61,16 @@ std::string text_of(const BoardPlan& plan) {
   for (const ModulePlan& module : plan.modules) {
     modules.push_back({{"module", module.module}, {"act", plan_word_of(module.act).word}, {"why", module.why}});
   }
+  Json pools = Json::array();
+  for (const PoolPlan& pool : plan.pools) {
+    pools.push_back({{"pool", pool.pool}, {"act", plan_word_of(pool.act).word}, {"why", pool.why}});
+  }
   return Json{{"restart", plan.restart},
               {"tick", plan.tick},
               {"schedule_tick", plan.schedule_tick},
               {"left_out", plan.left_out},
-              {"modules", std::move(modules)}}
+              {"modules", std::move(modules)},
+              {"pools", std::move(pools)}}
       .dump();
 }
 
@@ -58,17 +81,10 @@ std::optional<BoardPlan> parse_board_plan(std::string_view text) {
       !base::read(*json, "left_out", plan.left_out) || !base::read(*json, "schedule_tick", plan.schedule_tick)) {
     return std::nullopt;
   }
-  for (const Json& one : (*json)["modules"].values()) {
-    ModulePlan& module = plan.modules.emplace_back();
-    std::string word;
-    base::read(one, "act", word);
-    const auto* const found =
-        std::find_if(kPlanWords.begin(), kPlanWords.end(), [&](const PlanWord& known) { return known.word == word; });
-    if (found == kPlanWords.end() || !base::read(one, "module", module.module)) {
-      return std::nullopt;
-    }
-    module.act = found->act;
-    base::read(one, "why", module.why);
+  // Boards of an earlier release say nothing about pools.
+  if (!read_plans((*json)["modules"], "module", &ModulePlan::module, plan.modules) ||
+      !read_plans((*json)["pools"], "pool", &PoolPlan::pool, plan.pools)) {
+    return std::nullopt;
   }
   return plan;
 }

@@ -30,9 +30,17 @@ struct ModulePlan {
 // As people read it: "exchanged with state".
 const char* to_text(ModulePlan::Act act) noexcept;
 
+// What happens to a pool that the board sends or receives.
+struct PoolPlan {
+  std::string pool;
+  ModulePlan::Act act = ModulePlan::Act::Kept;
+  std::string why;  // "sent to control"
+};
+
 struct BoardPlan {
   std::string restart;  // why the node cannot go on; empty: it can
   std::vector<ModulePlan> modules;
+  std::vector<PoolPlan> pools{};
   std::uint64_t tick = 0;           // first tick with the new versions; 0: nothing was exchanged
   std::uint64_t schedule_tick = 0;  // first tick of the new schedule; 0: the schedule stays
   std::uint64_t left_out = 0;       // ticks without new values of a module, at most

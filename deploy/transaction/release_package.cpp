@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using base::Problem;
 
 constexpr std::array kNeededPrograms{"indurop", "indurop-agent", "indurop-node"};
-constexpr std::array kFurtherPrograms{"indurop-serve", "indurop-iceoryx"};
+constexpr std::array kFurtherPrograms{"indurop-serve", "indurop-iceoryx", "indurop-pools"};
 constexpr const char* kAgentProgram = "/bin/indurop-agent";
 
 bool is_library(const std::string& name) {

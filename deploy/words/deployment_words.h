@@ -171,6 +171,8 @@ inline constexpr const char* kRunBlob = "run";
 inline constexpr const char* kVariablesBlob = "variables";
 inline constexpr const char* kValuesBlob = "values";
 inline constexpr const char* kMessagesBlob = "messages";
+// Blob name: the state of its indurop-pools (node_texts.h).
+inline constexpr const char* kPoolsBlob = "pools";
 // Blob name: its alarms (deploy/agent/board_alarms.h).
 inline constexpr const char* kAlarmsBlob = "alarms";
 // Blob name: its files compared with their digests (deploy/agent/board_verify.h): this prefix and a name of the

@@ -10,12 +10,17 @@
 //   values:    {"layout", "running", "now_ns": CLOCK_MONOTONIC or virtual time of the board,
 //               "forces" and "lock" as above, "alarms": number of them} in a line, then for each variable, in the order
 //               of the schema, its freshness (i64, little endian: see below) and the bytes of its value
+//   pools:     {"state": "starting", "running", "stopping" or "restarting", "pid": 0 if there is none, "start_time" of
+//   it
+//               as in /proc, "deaths", "problem": "" if there is none, "pools": [{"pool", "text"}]}, of indurop-pools;
+//               {} if the manifest has no pool for the board
 //   messages:  {"epoch_ns", "basic_period_ns", "messages": [{"who", "time_ns", "text"}]}, oldest first
 
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 
 namespace indurop::deploy {
@@ -27,5 +32,10 @@ inline constexpr std::size_t kMaxValuesBytes = 4U << 20U;
 // board is silent.
 inline constexpr std::int64_t kNeverHeard = std::numeric_limits<std::int64_t>::min();
 inline constexpr std::int64_t kNotRead = std::numeric_limits<std::int64_t>::max();  // it was being written
+
+// The file of an agent with its text "pools", in the state folder of its board.
+inline std::filesystem::path pools_file(const std::filesystem::path& state_folder) {
+  return state_folder / "pools.json";
+}
 
 }  // namespace indurop::deploy

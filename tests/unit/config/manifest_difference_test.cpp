@@ -89,6 +89,7 @@ TEST(ManifestDifference, What_a_schedule_changes_is_none_if_it_does_not_count) {
             "board a, module belt: <position> is new");
   EXPECT_EQ(other(plant_with(kPress), plant_with(kPress, "<domain>3</domain>")), "<domain> is new");
   EXPECT_EQ(other(plant_with(kPress), plant_with(kPress, "<board name=\"b\"/>")), "board b is new");
+  EXPECT_EQ(other(plant_with(kPress, R"(<pool name="x" from="a" to="b"/>)"), plant_with(kPress)), "") << "of no node";
 }
 
 // Whatever single text or element is changed, it is found, but for names of files.

@@ -20,6 +20,7 @@ TEST(BoardPlan, Comes_out_of_its_text_as_it_was) {
                         Act::Restarted, Act::Refused}) {
     sut.modules.push_back({"m", act, "w\n"});
   }
+  sut.pools = {{"n::eye", Act::Added, "sent to b"}, {"n::left", Act::Ended, ""}};
   const auto read = parse_board_plan(text_of(sut));
   ASSERT_TRUE(read);
   EXPECT_EQ(read->restart, sut.restart);
@@ -31,13 +32,25 @@ TEST(BoardPlan, Comes_out_of_its_text_as_it_was) {
     EXPECT_EQ(read->modules[i].act, sut.modules[i].act);
     EXPECT_EQ(read->modules[i].why, "w\n");
   }
+  ASSERT_EQ(read->pools.size(), 2U);
+  EXPECT_EQ(read->pools[0].pool, "n::eye");
+  EXPECT_EQ(read->pools[0].act, Act::Added);
+  EXPECT_EQ(read->pools[0].why, "sent to b");
+  EXPECT_EQ(read->pools[1].act, Act::Ended);
+}
+
+TEST(BoardPlan, Of_an_earlier_release_says_nothing_about_pools) {
+  const auto read = parse_board_plan(R"({"restart":"","tick":1,"left_out":0,"schedule_tick":0,"modules":[]})");
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(read->pools.empty());
 }
 
 TEST(BoardPlan, What_is_no_plan_is_none) {
   for (const char* text :
        {"", "{}", "[]", R"({"restart":"","tick":-1,"left_out":0,"schedule_tick":0})",
         R"({"restart":"","tick":1,"left_out":0,"schedule_tick":0,"modules":[{"module":"m","act":"blown up"}]})",
-        R"({"restart":"","tick":1,"left_out":0,"schedule_tick":0,"modules":[{"act":"kept"}]})"}) {
+        R"({"restart":"","tick":1,"left_out":0,"schedule_tick":0,"modules":[{"act":"kept"}]})",
+        R"({"restart":"","tick":1,"left_out":0,"schedule_tick":0,"modules":[],"pools":[{"act":"kept"}]})"}) {
     EXPECT_FALSE(parse_board_plan(text)) << text;
   }
 }

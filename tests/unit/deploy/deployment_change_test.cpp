@@ -113,6 +113,32 @@ TEST_F(DeploymentChangeTest, Another_file_that_differs_needs_a_restart) {
   EXPECT_EQ(change(before_, sources).plan.restart, "") << "sources run nowhere";
 }
 
+TEST_F(DeploymentChangeTest, Other_pools_need_no_restart) {
+  const auto with = [&](const std::string& pools) {
+    Files files = before_;
+    files["plant.xml"].insert(two_.find("</plant>"), pools);
+    return files;
+  };
+  const auto acts_of = [&](const std::string& before, const std::string& after) {
+    const DeploymentChange sut = change(with(before), with(after));
+    EXPECT_EQ(sut.plan.restart, "");
+    EXPECT_THAT(acts(sut), ElementsAre(Act::Kept, Act::Kept));
+    std::vector<std::pair<std::string, Act>> all;
+    for (const PoolPlan& one : sut.plan.pools) {
+      all.emplace_back(one.pool, one.act);
+    }
+    return all;
+  };
+  using Pools = std::vector<std::pair<std::string, Act>>;
+  const std::string eye = R"(<pool name="eye" from="a" to="b"/>)";
+  const std::string left = R"(<pool name="left" from="b" to="a"/>)";
+  EXPECT_EQ(acts_of("", eye), (Pools{{"eye", Act::Added}}));
+  EXPECT_EQ(acts_of(eye, eye), (Pools{{"eye", Act::Kept}}));
+  EXPECT_EQ(acts_of(eye, eye + left), (Pools{{"eye", Act::Restarted}, {"left", Act::Added}}));
+  EXPECT_EQ(acts_of(eye + left, left), (Pools{{"left", Act::Restarted}, {"eye", Act::Ended}}));
+  EXPECT_EQ(acts_of(eye, R"(<pool name="eye" from="a" to="b" every="1s"/>)"), (Pools{{"eye", Act::Restarted}}));
+}
+
 TEST_F(DeploymentChangeTest, A_process_in_the_background_is_exchanged_too) {
   const auto with = [&](const std::string& content) {
     Files files = before_;
