@@ -9,6 +9,7 @@
 
 #include "config/check/uses.h"
 #include "config/xml/reader.h"
+#include "tools/cli/plant/pool_tables.h"
 #include "tools/client/config/checked_config.h"
 #include "tools/console/diagnostics.h"
 
@@ -106,9 +107,10 @@ class View {
       modules += checked_.plant.boards[i].config.modules.size();
       undeclared += checked_.check.boards[i].undeclared.size();
     }
-    return fmt::format("{}, {}, {}, {} between boards{}", counted(checked_.plant.boards.size(), "board"),
+    return fmt::format("{}, {}, {}, {} between boards{}{}", counted(checked_.plant.boards.size(), "board"),
                        counted(modules, "module"), counted(uses_.variables().size(), "shared variable"),
-                       checked_.check.routes.size(), without_state(undeclared));
+                       checked_.check.routes.size(), counted_pools(pool_table(checked_).rows().size()),
+                       without_state(undeclared));
   }
 
  private:
@@ -160,7 +162,8 @@ JsonValue head(const CheckedPlant& checked, const View& view) {
           {"lease_ns", plant.lease.count()},
           {"diagnostics", diagnostics_json(checked.diagnostics)},
           {"boards", view.boards().json()},
-          {"variables", view.variables().json()}};
+          {"variables", view.variables().json()},
+          {"pools", pool_table(checked).json()}};
 }
 
 }  // namespace
@@ -179,7 +182,7 @@ int check_plant_file(Context& context, const std::string& file, const config::Ch
     print_table(context, view.routes(), head(checked, view), "routes");
   } else {
     print_diagnostics(context, checked.diagnostics, true);
-    for (const Table& table : {view.boards(), view.routes()}) {
+    for (const Table& table : {view.boards(), view.routes(), pool_table(checked)}) {
       if (!context.out.quiet() && !table.empty()) {
         context.out.write(table_text(table, context.out));
         context.out.line();

@@ -10,6 +10,13 @@
 #include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
+namespace {
+
+std::string title_of(const deploy::PoolPlan& pool) {
+  return "pool " + printable(pool.pool);
+}
+
+}  // namespace
 
 void DeploymentPlan::receive(const deploy::BoardReport& report) {
   if (report.plan.empty() || boards_[report.board].text == report.plan) {
@@ -45,14 +52,24 @@ void DeploymentPlan::print(Context& context) {
     for (const deploy::ModulePlan& module : known.plan.modules) {
       module_width = std::max(module_width, printable(module.module).size());
     }
+    for (const deploy::PoolPlan& pool : known.plan.pools) {
+      module_width = std::max(module_width, title_of(pool).size());
+    }
   }
   for (const auto& [board, known] : boards_) {
-    for (const deploy::ModulePlan& module : shown(known.plan).modules) {
-      std::string line =
-          fmt::format("  {:<{}}  {:<{}}  {:<20}  {}", printable(board), board_width, printable(module.module),
-                      module_width, to_text(module.act), printable(module.why));
+    const auto print_one = [&, &name = board](const std::string& title, deploy::ModulePlan::Act act,
+                                              const std::string& why) {
+      std::string line = fmt::format("  {:<{}}  {:<{}}  {:<20}  {}", printable(name), board_width, title, module_width,
+                                     to_text(act), printable(why));
       line.erase(line.find_last_not_of(' ') + 1);
       context.out.message_line(line);
+    };
+    const deploy::BoardPlan plan = shown(known.plan);
+    for (const deploy::ModulePlan& module : plan.modules) {
+      print_one(printable(module.module), module.act, module.why);
+    }
+    for (const deploy::PoolPlan& pool : plan.pools) {
+      print_one(title_of(pool), pool.act, pool.why);
     }
   }
   if (const std::string why = restart(); !why.empty() && module_width > 0) {
@@ -81,12 +98,17 @@ JsonValue DeploymentPlan::json() const {
     for (const deploy::ModulePlan& module : plan.modules) {
       modules.push_back({{"module", module.module}, {"plan", to_text(module.act)}, {"why", module.why}});
     }
+    JsonValue pools = JsonValue::array();
+    for (const deploy::PoolPlan& pool : plan.pools) {
+      pools.push_back({{"pool", pool.pool}, {"plan", to_text(pool.act)}, {"why", pool.why}});
+    }
     list.push_back({{"board", board},
                     {"restart", plan.restart},
                     {"tick", plan.tick},
                     {"schedule_tick", plan.schedule_tick},
                     {"left_out", plan.left_out},
-                    {"modules", std::move(modules)}});
+                    {"modules", std::move(modules)},
+                    {"pools", std::move(pools)}});
   }
   return list;
 }

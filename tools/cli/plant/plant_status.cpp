@@ -44,14 +44,19 @@ std::vector<std::uint64_t> agents_of(const BoardRoster& roster) {
   return agents;
 }
 
-// Returns nodes that do not run although they should, and alarms: "board control: module Robot is stopped".
-std::vector<std::string> trouble_of(deploy::DeployLink& link, std::uint64_t self, const BoardRoster& roster) {
+// Returns nodes and indurop-pools that do not run although they should, and alarms: "board control: module Robot is
+// stopped".
+std::vector<std::string> trouble_of(deploy::DeployLink& link, std::uint64_t self, const BoardRoster& roster,
+                                    const PoolPrograms& pools) {
   const auto texts = fetch_texts(link, self, deploy::kAlarmsBlob, agents_of(roster));
   std::vector<std::string> all;
   for (const auto& [key, entry] : roster.all()) {
     const deploy::BoardReport& board = entry.report;
     if (!board.current.empty() && board.node != deploy::NodeCondition::Running) {
       all.push_back(fmt::format("board {}: its node is {}", board.board, deploy::to_text(board.node)));
+    }
+    if (const auto program = pools.find(key.second); program != pools.end() && !program->second.problem.empty()) {
+      all.push_back(fmt::format("board {}: {}", board.board, program->second.problem));
     }
     const auto text = texts.find(key.second);
     const JsonValue reported = text != texts.end() ? JsonValue::parse(text->second).value_or(JsonValue()) : JsonValue();
@@ -65,14 +70,19 @@ std::vector<std::string> trouble_of(deploy::DeployLink& link, std::uint64_t self
   return all;
 }
 
-VariablesRead ask(deploy::DeployLink& link, std::uint64_t self, const BoardRoster& roster) {
-  VariablesRead read;
+BoardAnswers ask(deploy::DeployLink& link, std::uint64_t self, const BoardRoster& roster) {
+  BoardAnswers answers;
   for (const auto& [agent, text] : fetch_texts(link, self, deploy::kMirrorBlob, agents_of(roster))) {
     if (auto variables = variables_in(text)) {
-      read.emplace(agent, std::move(*variables));
+      answers.read.emplace(agent, std::move(*variables));
     }
   }
-  return read;
+  for (const auto& [agent, text] : fetch_texts(link, self, deploy::kPoolsBlob, agents_of(roster))) {
+    if (auto program = read_pool_program(text)) {
+      answers.pools.emplace(agent, std::move(*program));
+    }
+  }
+  return answers;
 }
 
 }  // namespace
@@ -85,11 +95,11 @@ int PlantStatus::show(Context& context) {
     }
     roster_.gather(*open_, kStatusHearNs, [&] { return roster_.complete(); });
   }
-  const VariablesRead read = ask(*open_, link.self, roster_);
-  const std::vector<std::string> trouble = trouble_of(*open_, link.self, roster_);
+  const BoardAnswers answers = ask(*open_, link.self, roster_);
+  const std::vector<std::string> trouble = trouble_of(*open_, link.self, roster_, answers.pools);
   const std::int64_t now = rt::now_ns();
   roster_.listen(*open_, now);
-  const Table table = board_table(roster_, now, &read);
+  const Table table = board_table(roster_, now, &answers);
   const std::vector<std::string> missing = missing_boards(roster_);
   if (table.empty()) {
     context.out.error(

@@ -15,6 +15,7 @@
 #include "core/base/spawn.h"
 #include "core/rt/clock.h"
 #include "core/rt/thread.h"
+#include "tools/cli/plant/local_pools.h"
 #include "tools/client/process/interrupt.h"
 #include "tools/console/diagnostics.h"
 
@@ -67,11 +68,14 @@ Result<pid_t> launch(std::vector<std::string> words) {
 class Plant {
  public:
   Plant(Context& context, std::string file, std::vector<Child> children)
-      : context_(context), plant_(std::move(file)), children_(std::move(children)) {}
+      : context_(context), plant_(std::move(file)), children_(std::move(children)), pools_(context) {}
+
+  void send_pools(const config::Plant& plant, const std::filesystem::path& folder) { pools_.start(plant, folder); }
 
   int run() {
     while (running() > 0) {
       wait_until(rt::now_ns() + kEndPollNs);
+      pools_.collect();
       if (interrupted()) {
         end_all(SIGINT);
         return interrupt_code();
@@ -85,6 +89,7 @@ class Plant {
   }
 
   void end_all(int signal) {
+    pools_.end();
     for (const Child& child : children_) {
       if (child.pid > 0) {
         ::kill(child.pid, signal);
@@ -142,6 +147,7 @@ class Plant {
   Context& context_;
   std::string plant_;
   std::vector<Child> children_;
+  LocalPools pools_;
   bool killed_ = false;
 };
 
@@ -180,7 +186,9 @@ int run_local(Context& context, const std::filesystem::path& program, const conf
       return kFailed;
     }
   }
-  return Plant(context, plant.string(), std::move(children)).run();
+  Plant running(context, plant.string(), std::move(children));
+  running.send_pools(read.plant, program.parent_path());
+  return running.run();
 }
 
 }  // namespace indurop::tools

@@ -10,6 +10,7 @@
 #include "tools/cli/command/config_file.h"
 #include "tools/cli/plant/check_chain.h"
 #include "tools/cli/plant/check_plant.h"
+#include "tools/cli/plant/pool_tables.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/config/checked_config.h"
 #include "tools/console/diagnostics.h"
@@ -35,7 +36,7 @@ std::string summary_line(const CheckedConfig& checked) {
                         base::format_duration(table.macro_period), counted(table.slot_count, "slot"));
   }
   return line + ", " + counted(checked.check.schema.variables.size(), "shared variable") +
-         without_state(checked.check.undeclared.size());
+         counted_pools(checked.check.schema.pools.size()) + without_state(checked.check.undeclared.size());
 }
 
 Table variable_table(const CheckedConfig& checked) {
@@ -69,6 +70,7 @@ JsonValue summary_json(const CheckedConfig& checked) {
           {"macro_period_ns", checked.check.table.macro_period.count()},
           {"slots", checked.check.table.slot_count},
           {"undeclared", undeclared_modules(checked)},
+          {"pools", pool_table(checked).json()},
           {"diagnostics", diagnostics_json(checked.diagnostics)}};
 }
 
@@ -82,9 +84,11 @@ int check_one(Context& context, const std::string& file, const config::CheckOpti
     print_table(context, variables, summary_json(checked), "variables");
   } else {
     print_diagnostics(context, checked.diagnostics, true);
-    if (!context.out.quiet() && !variables.empty()) {
-      context.out.write(table_text(variables, context.out));
-      context.out.line();
+    for (const Table& table : {variables, pool_table(checked)}) {
+      if (!context.out.quiet() && !table.empty()) {
+        context.out.write(table_text(table, context.out));
+        context.out.line();
+      }
     }
     print_verdict(context, checked.diagnostics, summary_line(checked));
   }
@@ -135,7 +139,7 @@ Action declare_check(base::Options& app, Context& context) {
 const Verb kCheckVerb{
     "check", "Before it runs", "Check a configuration, and show which modules read and write each variable",
     "Prints every error, warning and note as file:line:col, the shared variables with the modules that write and\n"
-    "read them, and one summary line. With -q it prints only diagnostics and the summary; -o csv prints the\n"
+    "read them, pools, and one summary line. With -q it prints only diagnostics and the summary; -o csv prints the\n"
     "variables. For a plant it shows the boards and the variables that travel between them; -o csv prints these\n"
     "variables. Modules that do not declare what they keep from run to run (INDUROP_STATE) are named and counted.\n"
     "If the execution times of modules are known (<wcet>, or --times), a deadline that a module can miss is an\n"

@@ -17,6 +17,7 @@
 #include "tools/client/node/module_reload.h"
 #include "tools/client/node/module_table.h"
 #include "tools/client/node/node_trouble.h"
+#include "tools/client/node/pool_program.h"
 #include "tools/client/node/pool_view.h"
 #include "tools/client/node/run_report.h"
 #include "tools/client/process/interrupt.h"
@@ -62,6 +63,7 @@ struct StatusHead {
   vars::LockNote lock;
   std::vector<std::string> trouble;
   std::vector<PoolView> pools;
+  std::optional<PoolProgram> pool_program;
   std::vector<std::string> exchanged;  // modules whose code was exchanged, with their version
 };
 
@@ -78,17 +80,21 @@ std::vector<std::string> exchanged_modules(const RunView& run) {
 StatusHead read_head(const BoardRun& chosen) {
   const std::string& node = chosen.node;
   const RunView& run = chosen.run;
-  StatusHead head{report_of(node, run), {}, {}, {}, {}, {}, {}, {}, {}, exchanged_modules(run)};
+  StatusHead head{report_of(node, run), {}, {}, {}, {}, {}, {}, {}, {}, {}, exchanged_modules(run)};
   if (run.here()) {
     head.mirror = view_mirror(node);
     head.external = view_external(node);
     head.retained = vars::RetainFile(vars::state_directory(node)).last_report();
     head.alarms = alarms_here(node);
     head.pools = pools_here(node);
+    head.pool_program = view_pool_program(node);
   }
   head.forces = chosen.forces ? *chosen.forces : forces_here(node);
   head.lock = chosen.forces ? chosen.lock : vars::lock_of(node);
   head.trouble = trouble_now(run, head.mirror);
+  if (head.pool_program && !head.pool_program->problem.empty()) {
+    head.trouble.push_back(printable(head.pool_program->problem));
+  }
   if (const std::string text = run.here() && head.report.alive ? unwatched_alarms(node) : ""; !text.empty()) {
     head.trouble.push_back(text);
   }
@@ -126,6 +132,9 @@ void print_head(Context& context, const StatusHead& head) {
       context.out.line((i == 0 ? "  pool      " : "            ") + lines[i]);
     }
   }
+  if (head.pool_program) {
+    context.out.line("  pools     " + line_of(*head.pool_program));
+  }
   if (head.mirror) {
     for (const std::string& line : mirror_lines(*head.mirror, context.out)) {
       context.out.line(line);
@@ -153,6 +162,7 @@ int show_once(Context& context, const BoardRun& chosen, bool check) {
   json["lock"] = json_of(head.lock);
   json["alarms"] = json_of(head.alarms);
   json["pools"] = json_of(head.pools);
+  json["pool_program"] = json_of(head.pool_program);
   json["trouble"] = JsonValue(head.trouble);
   json["retain_lost"] = head.retained;
   json["external"] = head.external ? json_of(*head.external) : JsonValue();

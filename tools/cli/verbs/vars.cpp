@@ -5,11 +5,13 @@
 
 #include <algorithm>
 
+#include "tools/cli/plant/pool_tables.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/node/known_uses.h"
 #include "tools/client/node/node_choice.h"
 #include "tools/client/text/units.h"
 #include "tools/client/values/variables.h"
+#include "tools/console/table_text.h"
 
 namespace indurop::tools {
 namespace {
@@ -58,6 +60,45 @@ std::vector<Cell> row(const Item& item, const std::vector<std::uint8_t>& bytes, 
           Cell(variable.source)};
 }
 
+// Returns the globs that mean variables: one that matches pools only means them.
+std::vector<std::string> without_pools(const vars::Store& store, const std::vector<std::string>& globs) {
+  std::vector<std::string> rest;
+  for (const std::string& glob : globs) {
+    const auto matches = [&glob](const auto& one) { return schema::glob_match(glob, one.name); };
+    const schema::Schema& schema = store.schema();
+    const bool pools = std::any_of(schema.pools.begin(), schema.pools.end(), matches);
+    if (!pools || std::any_of(schema.variables.begin(), schema.variables.end(), matches)) {
+      rest.push_back(glob);
+    }
+  }
+  return rest;
+}
+
+std::vector<Column> variable_columns() {
+  return {{"NAME", "name"},
+          {"TYPE", "type"},
+          {"VALUE", "value", Align::Right, 0, kListedValueWidth},
+          {"UNIT", "unit"},
+          {"NOTES", "", Align::Left, 3},
+          {"", "retain"},
+          {"", "range"},
+          {"WRITTEN BY", "writers", Align::Left, 1},
+          {"READ BY", "readers", Align::Left, 2},
+          {"DESCRIPTION", "description", Align::Left, 4},
+          {"", "source"}};
+}
+
+void print_all(Context& context, const Table& variables, const Table& pools, bool running) {
+  const bool text = context.format == Format::Table;
+  if (!text || !variables.empty() || pools.empty()) {
+    print_table(context, variables, {{"node", context.values->title()}, {"running", running}, {"pools", pools.json()}},
+                "variables");
+  }
+  if (text && !pools.empty()) {
+    context.out.write((variables.empty() ? "" : "\n") + table_text(pools, context.out));
+  }
+}
+
 int list(Context& context, const VarsOptions& options) {
   const auto store = open_store(context, vars::Mode::ReadOnly);
   if (!store) {
@@ -65,11 +106,13 @@ int list(Context& context, const VarsOptions& options) {
   }
   int code = kOk;
   std::vector<Item> items;
-  const std::vector<std::string> everything{"*"};
+  const std::vector<std::string> globs =
+      options.globs.empty() ? std::vector<std::string>{"*"} : without_pools(*store, options.globs);
   if (options.globs.empty() && store->schema().variables.empty()) {
     context.out.note(fmt::format("{} has no shared variables", context.values->whose()));
-  } else if (const int found = select_items(context, *store, options.globs.empty() ? everything : options.globs, items,
-                                            options.names ? Values::NotNeeded : Values::Needed);
+  } else if (const int found = globs.empty() ? kOk
+                                             : select_items(context, *store, globs, items,
+                                                            options.names ? Values::NotNeeded : Values::Needed);
              found != kOk) {
     return found;
   }
@@ -84,17 +127,7 @@ int list(Context& context, const VarsOptions& options) {
     return kOk;
   }
   const KnownUses uses = context.values->here() ? known_uses(context.node) : KnownUses{};
-  Table table({{"NAME", "name"},
-               {"TYPE", "type"},
-               {"VALUE", "value", Align::Right, 0, kListedValueWidth},
-               {"UNIT", "unit"},
-               {"NOTES", "", Align::Left, 3},
-               {"", "retain"},
-               {"", "range"},
-               {"WRITTEN BY", "writers", Align::Left, 1},
-               {"READ BY", "readers", Align::Left, 2},
-               {"DESCRIPTION", "description", Align::Left, 4},
-               {"", "source"}});
+  Table table(variable_columns());
   for (const Item& item : items) {
     const auto bytes = operate::read(*store, item);
     if (!bytes) {
@@ -109,7 +142,7 @@ int list(Context& context, const VarsOptions& options) {
   if (!absence.empty() && context.values->here()) {
     context.out.note(context.values->gone(absence) + ": these are the last values");
   }
-  print_table(context, table, {{"node", context.values->title()}, {"running", absence.empty()}}, "variables");
+  print_all(context, table, pool_table(store->schema(), options.globs, options.type), absence.empty());
   return code;
 }
 
@@ -130,7 +163,8 @@ Action declare_vars(base::Options& app, Context& context) {
 const Verb kVarsVerb{
     "vars", "Variables", "List shared variables: type, value, unit, writers and readers",
     "Writers and readers are read from the module files of the node's configuration; they are omitted (null in\n"
-    "JSON) if these files cannot be read.\n"
+    "JSON) if these files cannot be read. Pools are listed below the variables, in JSON as 'pools', not in CSV; their\n"
+    "state is shown by get and status.\n"
     "Examples:\n"
     "  indurop vars\n"
     "  indurop vars 'knu::Robot::*' -o json\n"

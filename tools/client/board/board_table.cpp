@@ -84,9 +84,18 @@ Cell read_cell(const std::vector<mirror::MirroredVariable>& variables) {
   return {text, json_of(variables), invalid > 0 ? Style::Bad : Style::None};
 }
 
+Cell pools_cell(const PoolPrograms& programs, std::uint64_t agent) {
+  const auto found = programs.find(agent);
+  if (found == programs.end()) {
+    return {"", JsonValue()};
+  }
+  const bool running = found->second.state == "running";
+  return {printable(found->second.state), json_of(std::optional(found->second)), running ? Style::Good : Style::Warn};
+}
+
 }  // namespace
 
-Table board_table(const BoardRoster& roster, std::int64_t now, const VariablesRead* read) {
+Table board_table(const BoardRoster& roster, std::int64_t now, const BoardAnswers* answers) {
   constexpr Align kRight = Align::Right;
   std::vector<Column> columns({{"BOARD", "board"},
                                {"HOST", "host", Align::Left, 3},
@@ -105,15 +114,18 @@ Table board_table(const BoardRoster& roster, std::int64_t now, const VariablesRe
                                {"", "release"},
                                {"HEARD", "age_ns", kRight, 1},
                                {"MESSAGE", "message"}});
-  if (read != nullptr) {
+  if (answers != nullptr) {
     columns.insert(columns.end() - 1, {"VARIABLES READ", "variables", Align::Left, 1});
+    columns.insert(columns.end() - 1, {"POOLS", "pools", Align::Left, 1});
   }
   Table table(std::move(columns));
   for (const auto& [key, entry] : roster.all()) {
     std::vector<Cell> cells = row(roster, entry, now);
-    if (read != nullptr) {
-      const auto reported = read->find(key.second);
-      cells.insert(cells.end() - 1, reported == read->end() ? Cell("", JsonValue()) : read_cell(reported->second));
+    if (answers != nullptr) {
+      const auto reported = answers->read.find(key.second);
+      cells.insert(cells.end() - 1,
+                   reported == answers->read.end() ? Cell("", JsonValue()) : read_cell(reported->second));
+      cells.insert(cells.end() - 1, pools_cell(answers->pools, key.second));
     }
     table.add(std::move(cells));
   }

@@ -10,6 +10,7 @@
 
 #include "network/mirror/frames/mirrored_variables.h"
 #include "tools/client/board/board_roster.h"
+#include "tools/client/node/pool_program.h"
 #include "tools/client/text/table.h"
 
 namespace indurop::tools {
@@ -17,8 +18,16 @@ namespace indurop::tools {
 // The variables that boards read from each other, by agent.
 using VariablesRead = std::map<std::uint64_t, std::vector<mirror::MirroredVariable>>;
 
-// With `read` the table also has what each board reads from the others and its age.
-Table board_table(const BoardRoster& roster, std::int64_t now_ns, const VariablesRead* read = nullptr);
+// The state of indurop-pools of boards whose pools are sent or received, by agent.
+using PoolPrograms = std::map<std::uint64_t, PoolProgram>;
+// What boards were asked for in addition to their reports.
+struct BoardAnswers {
+  VariablesRead read;
+  PoolPrograms pools;
+};
+
+// With `answers` the table also has what each board reads from the others and its age, and the state of indurop-pools.
+Table board_table(const BoardRoster& roster, std::int64_t now_ns, const BoardAnswers* answers = nullptr);
 // Agents of other releases and participants that report in the name of others, which are not in the table: one error
 // each, and as JSON.
 void note_others(Messages& messages, const BoardRoster& roster);
