@@ -15,7 +15,13 @@
 #include <cstdlib>
 #include <thread>
 
+#if __has_include("stationPubSubTypes.hpp")  // of fastddsgen 4, for Fast DDS 3
+#include "stationPubSubTypes.hpp"
+constexpr auto kOk = eprosima::fastdds::dds::RETCODE_OK;
+#else
 #include "stationPubSubTypes.h"
+constexpr auto kOk = ReturnCode_t::RETCODE_OK;
+#endif
 
 namespace {
 
@@ -75,7 +81,7 @@ int set_target(fast::DomainParticipant& participant, double wanted) {
       next = time + kAgain;
     }
     fast::SampleInfo info;
-    while (reader->take_next_sample(&value, &info) == ReturnCode_t::RETCODE_OK) {
+    while (reader->take_next_sample(&value, &info) == kOk) {
       if (info.valid_data && info.publication_handle != own) {
         reported = true;
         now = value.value();

@@ -12,7 +12,13 @@
 #include <cstdio>
 #include <cstdlib>
 
+#if __has_include("stationPubSubTypes.hpp")  // of fastddsgen 4, for Fast DDS 3
+#include "stationPubSubTypes.hpp"
+constexpr auto kOk = eprosima::fastdds::dds::RETCODE_OK;
+#else
 #include "stationPubSubTypes.h"
+constexpr auto kOk = ReturnCode_t::RETCODE_OK;
+#endif
 
 namespace {
 
@@ -56,7 +62,7 @@ int main(int argc, char** argv) {
     reader->wait_for_unread_message({1, 0});
     station::State state;
     fast::SampleInfo info;
-    while (left != 0 && reader->take_next_sample(&state, &info) == ReturnCode_t::RETCODE_OK) {
+    while (left != 0 && reader->take_next_sample(&state, &info) == kOk) {
       if (info.valid_data) {
         print(state);
         left -= left > 0 ? 1 : 0;

@@ -15,7 +15,13 @@
 #include <cstring>
 #include <vector>
 
+#if __has_include("poolPubSubTypes.hpp")  // of fastddsgen 4, for Fast DDS 3
+#include "poolPubSubTypes.hpp"
+constexpr auto kOk = eprosima::fastdds::dds::RETCODE_OK;
+#else
 #include "poolPubSubTypes.h"
+constexpr auto kOk = ReturnCode_t::RETCODE_OK;
+#endif
 
 namespace {
 
@@ -85,7 +91,7 @@ int main(int argc, char** argv) {
     reader->wait_for_unread_message({0, 100'000'000});
     Part part;
     fast::SampleInfo info;
-    while (reader->take_next_sample(&part, &info) == ReturnCode_t::RETCODE_OK) {
+    while (reader->take_next_sample(&part, &info) == kOk) {
       if (info.valid_data && add(chunk, part)) {
         ++whole;
         wrong += is_right(chunk) ? 0 : 1;

@@ -10,7 +10,6 @@
 //   matched TOPIC COUNT
 //   endpoint reader|writer TOPIC TYPE MARK
 //   participant MARK
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
@@ -36,10 +35,23 @@
 #include <string>
 #include <vector>
 
+#if __has_include(<fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>)
+#define FAST_DDS_3
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
+#else
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#endif
+
 namespace {
 
 namespace fast = eprosima::fastdds::dds;
+#ifdef FAST_DDS_3
+namespace rtps = eprosima::fastdds::rtps;
+constexpr auto kOk = fast::RETCODE_OK;
+#else
 namespace rtps = eprosima::fastrtps::rtps;
+constexpr auto kOk = ReturnCode_t::RETCODE_OK;
+#endif
 using Bytes = std::vector<std::uint8_t>;
 
 void say(const std::string& line) {
@@ -71,6 +83,60 @@ std::string mark_of(const std::vector<std::uint8_t>& data) {
 }
 
 // A type of which only the name is known.
+#ifdef FAST_DDS_3
+class RawType : public fast::TopicDataType {
+ public:
+  explicit RawType(const std::string& name) {
+    constexpr std::uint32_t kMost = 1U << 20U;
+    set_name(name);
+    max_serialized_type_size = kMost;
+    is_compute_key_provided = false;
+  }
+  bool serialize(const void* data, rtps::SerializedPayload_t& payload, fast::DataRepresentationId_t /*form*/) override {
+    const Bytes& bytes = *static_cast<const Bytes*>(data);
+    payload.length = static_cast<std::uint32_t>(bytes.size());
+    std::copy(bytes.begin(), bytes.end(), payload.data);
+    return true;
+  }
+  bool deserialize(rtps::SerializedPayload_t& payload, void* data) override {
+    static_cast<Bytes*>(data)->assign(payload.data, payload.data + payload.length);
+    return true;
+  }
+  std::uint32_t calculate_serialized_size(const void* data, fast::DataRepresentationId_t /*form*/) override {
+    return static_cast<std::uint32_t>(static_cast<const Bytes*>(data)->size());
+  }
+  void* create_data() override { return new Bytes; }
+  void delete_data(void* data) override { delete static_cast<Bytes*>(data); }
+  bool compute_key(rtps::SerializedPayload_t& /*payload*/, rtps::InstanceHandle_t& /*key*/, bool /*force*/) override {
+    return false;
+  }
+  bool compute_key(const void* /*data*/, rtps::InstanceHandle_t& /*key*/, bool /*force*/) override { return false; }
+};
+
+class Discoveries : public fast::DomainParticipantListener {
+ public:
+  void on_participant_discovery(fast::DomainParticipant* /*own*/, rtps::ParticipantDiscoveryStatus status,
+                                const fast::ParticipantBuiltinTopicData& found, bool& /*ignore*/) override {
+    if (status == rtps::ParticipantDiscoveryStatus::DISCOVERED_PARTICIPANT) {
+      say("participant " + mark_of(found.user_data.data_vec()));
+    }
+  }
+  void on_data_reader_discovery(fast::DomainParticipant* /*own*/, rtps::ReaderDiscoveryStatus status,
+                                const fast::SubscriptionBuiltinTopicData& found, bool& /*ignore*/) override {
+    if (status == rtps::ReaderDiscoveryStatus::DISCOVERED_READER) {
+      say("endpoint reader " + found.topic_name.to_string() + " " + found.type_name.to_string() + " " +
+          mark_of(found.user_data.data_vec()));
+    }
+  }
+  void on_data_writer_discovery(fast::DomainParticipant* /*own*/, rtps::WriterDiscoveryStatus status,
+                                const fast::PublicationBuiltinTopicData& found, bool& /*ignore*/) override {
+    if (status == rtps::WriterDiscoveryStatus::DISCOVERED_WRITER) {
+      say("endpoint writer " + found.topic_name.to_string() + " " + found.type_name.to_string() + " " +
+          mark_of(found.user_data.data_vec()));
+    }
+  }
+};
+#else
 class RawType : public fast::TopicDataType {
  public:
   explicit RawType(const std::string& name) {
@@ -118,13 +184,14 @@ class Discoveries : public fast::DomainParticipantListener {
     }
   }
 };
+#endif  // FAST_DDS_3
 
 class Reading : public fast::DataReaderListener {
  public:
   void on_data_available(fast::DataReader* reader) override {
     Bytes bytes;
     fast::SampleInfo info;
-    while (reader->take_next_sample(&bytes, &info) == ReturnCode_t::RETCODE_OK) {
+    while (reader->take_next_sample(&bytes, &info) == kOk) {
       if (info.valid_data) {
         say("sample " + reader->get_topicdescription()->get_name() + " " + hex_of(bytes));
       }
