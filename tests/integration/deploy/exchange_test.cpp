@@ -100,7 +100,7 @@ TEST_F(Exchange, Only_the_board_whose_file_differs_exchanges_it_and_both_commit)
   EXPECT_EQ(planned(done.json(), "a", "press"), "kept");
   EXPECT_EQ(press("a").version, 1U);
   EXPECT_EQ(press("b").version, 2U);
-  EXPECT_EQ(press("a").deployment, done.json()["deployment"]);
+  EXPECT_EQ(done.json()["deployment"], press("a").deployment);
   EXPECT_TRUE(both_run(done.json()["deployment"]));
   expect_untouched("a");
   expect_untouched("b");

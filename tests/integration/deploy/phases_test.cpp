@@ -222,7 +222,7 @@ TEST_F(Phases, A_board_killed_at_the_commit_ends_with_what_the_others_run) {
   const Outcome outcome = deployer.finish();
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   start_agent("b");
-  EXPECT_EQ(new_one(), outcome.json()["deployment"]);
+  EXPECT_EQ(outcome.json()["deployment"], new_one());
 }
 
 TEST_F(Phases, A_deployer_killed_at_the_commit_leaves_all_boards_with_the_same) {

@@ -69,7 +69,7 @@ TEST_F(Rescheduled, Modules_are_added_and_ended_and_come_back_by_a_rollback) {
   expect_as_said("a");
   EXPECT_EQ(seen("a").ended, std::set<std::string>{"ticks"});
   EXPECT_EQ(seen("b").schedule, 1U) << "nothing of it differs";
-  EXPECT_EQ(press("b").deployment, done.json()["deployment"]);
+  EXPECT_EQ(done.json()["deployment"], press("b").deployment);
 
   const Outcome back = indurop({"rollback", "--health", "300ms", "-o", "json"});
   EXPECT_EQ(back.code, 0) << back.err << agent("a").err();
