@@ -54,15 +54,15 @@ std::string too_many(const std::vector<std::string>& words, const std::vector<Op
                      takes_some ? "too much" : "not expected here");
 }
 
-std::string without_dashes(const std::string& name) {
-  return name.substr(std::min(name.find_first_not_of('-'), name.size()));
+std::string bare_name(const std::string& name) {
+  return name.substr(std::min(name.find_first_not_of(std::string{'-', kArgumentMark}), name.size()));
 }
 
 // Returns the option named in a message. CLI11 begins its message with the option's name, for flags without dashes.
 const OptionText* named_in(const std::string& message, const std::vector<OptionText>& options) {
-  const std::string name = without_dashes(message.substr(0, message.find_first_of(": ")));
+  const std::string name = bare_name(message.substr(0, message.find_first_of(": ")));
   const auto found = std::find_if(options.begin(), options.end(), [&](const OptionText& option) {
-    return without_dashes(option.long_name) == name || without_dashes(option.short_name) == name;
+    return bare_name(option.long_name) == name || bare_name(option.short_name) == name;
   });
   return found == options.end() ? nullptr : &*found;
 }

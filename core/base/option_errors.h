@@ -13,6 +13,9 @@ class ParseError;
 
 namespace indurop::base {
 
+// CLI11 is given "_file" for an argument "file": from 2.4 on it takes "file" and "--file" of one verb for the same.
+constexpr char kArgumentMark = '_';
+
 // Call after `app` has failed to parse the options that `command` describes.
 std::string wrong_words(const CLI::ParseError& error, const CLI::App& app, const CommandText& command);
 

@@ -66,6 +66,14 @@ Completion usual_completion(const std::string& value) {
   return value == "DIR" ? Completion::Folder : Completion::None;
 }
 
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option_name(const CLI::Option* option, bool positional) const override {
+    const std::string name = CLI::Formatter::make_option_name(option, positional);
+    return name.starts_with(kArgumentMark) ? name.substr(1) : name;
+  }
+};
+
 OptionText text_of(const std::string& names, const std::string& value, const std::string& help) {
   OptionText text;
   const auto comma = names.find(',');
@@ -137,6 +145,7 @@ Options::Options(const std::string& name, std::string purpose)
   open_standard_files();  // every program begins here
   text_.name = name;
   text_.purpose = std::move(purpose);
+  app_->formatter(std::make_shared<HelpFormatter>());
   app_->get_formatter()->column_width(kHelpDescription);
   app_->get_formatter()->label("Positionals", "Arguments");
   app_->get_formatter()->label("Needs", "needs");
@@ -171,7 +180,7 @@ Option Options::make(const std::string& names, const std::string& value, Take ta
     }
     return true;
   };
-  CLI::Option* made = app_->add_option(names, take_all, help);
+  CLI::Option* made = app_->add_option(state.text.positional ? kArgumentMark + names : names, take_all, help);
   made->type_name(value);
   return {state, *made};
 }

@@ -11,6 +11,7 @@
 namespace indurop::base {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
@@ -125,6 +126,17 @@ TEST(Options, What_is_missing_or_too_much_is_named_as_the_help_names_it) {
   EXPECT_EQ(sut.parse({"-b", "x", "--flie"}).text, "there is no option --flie");
   EXPECT_EQ(sut.parse({"in.xml"}).text, "--board NAME is missing");
   EXPECT_EQ(sut.parse({"in.xml", "-b", "x", "more", "-1"}).text, "'more', '-1' are too much");
+}
+
+TEST(Options, An_argument_and_an_option_may_have_the_same_name) {
+  Options sut("sample", "Show how it is done");
+  std::string from;
+  std::string to;
+  sut.add("file", "FROM", from, "What to read").required();
+  sut.add("-o,--file", "TO", to, "What to write").required();
+  EXPECT_EQ(sut.parse({"in.xml", "--file", "out.xml"}).outcome, Outcome::Parsed);
+  EXPECT_EQ(from + " " + to, "in.xml out.xml");
+  EXPECT_THAT(sut.parse({"--help"}).text, AllOf(HasSubstr("file FROM"), Not(HasSubstr("_file"))));
 }
 
 TEST(Options, Words_of_a_command_are_judged_by_its_own_options) {
