@@ -69,7 +69,8 @@ class Live : public NodeTest {
     command.front() = std::string(EXAMPLE_FOLDER) + "/" + command.front();
     const Environment alone{
         {"CYCLONEDDS_URI=<General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces></General>",
-         "FASTRTPS_DEFAULT_PROFILES_FILE=" EXAMPLE_SOURCES "/loopback_fastdds.xml"},
+         "FASTRTPS_DEFAULT_PROFILES_FILE=" EXAMPLE_SOURCES "/loopback_fastdds.xml",  // Fast DDS 2
+         "FASTDDS_DEFAULT_PROFILES_FILE=" EXAMPLE_SOURCES "/loopback_fastdds.xml"},  // Fast DDS 3
         static_cast<uid_t>(-1),
         {}};
     programs_.push_back(std::make_unique<Program>(command, alone));

@@ -50,7 +50,8 @@ class Setting:
                             "INDUROP_STATE_DIR": str(self.folder / "state"),
                             "CYCLONEDDS_URI": "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"true\"/>"
                                               "</Interfaces></General>"}
-        self.environment["FASTRTPS_DEFAULT_PROFILES_FILE"] = str(self.source / "examples/external/loopback_fastdds.xml")
+        for name in ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE"):  # Fast DDS 2, 3
+            self.environment[name] = str(self.source / "examples/external/loopback_fastdds.xml")
         self.environment.pop("INDUROP_NODE", None)
         self.random = random.Random(int(os.environ.get("POOLS_TEST_SEED", "1")))
 
