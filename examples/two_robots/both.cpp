@@ -23,7 +23,7 @@ void serve(const State& state, const Job& job, Service& service) {
   const int last = static_cast<int>(job.eState);
   if (group == PLC_ROBOT::ROBOT_GROUP_DISABLED) {
     ask(PLC_ROBOT::SVC_AD_GROUP_ENABLE);
-  } else if (group == PLC_ROBOT::ROBOT_GROUP_STANDBY &&
+  } else if (group == PLC_ROBOT::ROBOT_GROUP_STANDBY && job.bResume == 0 &&
              (last == PLC_ROBOT::ROBOT_JOB_IDLE || last == PLC_ROBOT::ROBOT_JOB_ENDED)) {
     ask(PLC_ROBOT::SVC_JB_START);
   }
