@@ -84,7 +84,7 @@ class RobotSpace {
   static void check(bool found, const Names& names) {
     if (!found) {
       throw std::runtime_error("property other_robots: this node has no variable " + names.space +
-                               " of robot_space.glb; build the module of that robot with a copy of this file");
+                               "; name the robot's namespace, and build it with its robot_space.glb");
     }
   }
   bool read(One& one) noexcept {

@@ -83,6 +83,33 @@ void check_variables(const robot::Findings& found, const schema::Schema& schema,
   }
 }
 
+// Finds robots that share the space of a module and do not report to this node, or that it does not name in <access>:
+// on several cores, two robots could then take the same cells in the same period.
+void check_others(const config::Config& config, const config::Module& module, const schema::Schema& schema,
+                  std::vector<base::Diagnostic>& all) {
+  const config::Property* const others = property(module, "other_robots");
+  std::istringstream words(others == nullptr ? "" : others->value);
+  for (std::string robot; words >> robot;) {
+    for (const char* const variable : {"::ROBOT_SPACE", "::ROBOT_HELD"}) {
+      const std::string name = robot + variable;
+      const auto error = [&](const std::string& text) {
+        all.push_back({base::Diagnostic::Severity::Error, config.file.string(), others->place,
+                       fmt::format("property other_robots: {}", text)});
+      };
+      if (!schema::find_place(schema, name)) {
+        error(
+            fmt::format("no module of this node declares '{}'; write the namespaces of the other robots, separated by "
+                        "spaces, and build each robot with its copy of robot_space.glb",
+                        name));
+        break;
+      }
+      if (std::find(module.reads.begin(), module.reads.end(), name) == module.reads.end()) {
+        error(fmt::format("'{0}' is not in <access> of this module; add <read>{0}</read>", name));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<base::Diagnostic> check_robot_files(const config::Config& config, const config::CheckResult& check) {
@@ -103,6 +130,9 @@ std::vector<base::Diagnostic> check_robot_files(const config::Config& config, co
     }
     warn_of_names(config, module, all);
     all.insert(all.end(), found.files.begin(), found.files.end());
+    if (!check.schema.variables.empty()) {
+      check_others(config, module, check.schema, all);
+    }
     if (!check.schema.variables.empty() && !base::has_error(found.files)) {
       check_variables(found, check.schema, all);
     }

@@ -76,6 +76,22 @@ TEST_F(Robot_files, Jobs_name_variables_that_there_are) {
   EXPECT_THAT(errors(), testing::Not(testing::Contains(HasSubstr("pick.job"))));
 }
 
+TEST_F(Robot_files, Other_robots_are_declared_and_named_in_access) {
+  for (const char* name : {"PLC_ROBOT2::ROBOT_SPACE", "PLC_ROBOT2::ROBOT_HELD"}) {
+    check_.schema.variables.emplace_back().name = name;
+  }
+  write("arm.urdf", kArm);
+  config_.modules[0].properties = {
+      {"urdf", "arm.urdf"}, {"cell_box", "0 0 0 1 1 1"}, {"other_robots", "PLC_ROBOT2 PLC_ROBOT3"}};
+  config_.modules[0].reads = {"PLC_ROBOT2::ROBOT_SPACE"};
+  EXPECT_THAT(errors(),
+              testing::IsSupersetOf(
+                  {HasSubstr("property other_robots: 'PLC_ROBOT2::ROBOT_HELD' is not in <access> of this module"),
+                   HasSubstr("property other_robots: no module of this node declares 'PLC_ROBOT3::ROBOT_SPACE'")}));
+  config_.modules[0].reads.push_back("PLC_ROBOT2::ROBOT_HELD");
+  EXPECT_THAT(errors(), testing::Not(testing::Contains(HasSubstr("<access>"))));
+}
+
 TEST_F(Robot_files, Only_robot_modules_have_them) {
   config_.modules[0].properties = {{"gain", "3"}};
   EXPECT_THAT(errors(), IsEmpty());
