@@ -50,7 +50,9 @@ bool SharedSpace::sense(const Others& others, std::uint64_t tick) noexcept {
       continue;
     }
     const SpaceReport& one = *others_[i];
-    if (seen_[i] && one.intrusions != intrusions_[i] && one.intruded == own().name) {
+    // One that came into the cells of several robots names the last of them.
+    if (seen_[i] && one.intrusions != intrusions_[i] &&
+        (one.intruded == own().name || meets(own().held, SpaceCells{}, one.held))) {
       intruded = true;
       say("", one.name.view(), " has come into the way of this robot");
     }
@@ -145,45 +147,40 @@ bool SharedSpace::follow(bool off_path, bool forced) noexcept {
   if (covers(now)) {
     return true;
   }
+  // Stopping does not help an arm at rest that has got another tool, or was pushed: its job may go on, and wait.
+  forced = forced || (robot_.axes.gates_at_rest() && now.places[2] == now.places[1]);
   stamp(now);
-  bool enters = enters_others();
+  bool enters = enters_others(false);
   if (enters && now.known && (forced || (way_.known && way_.more <= 0))) {
     now.more = 0;
     stamp(now);
-    enters = enters_others();
+    enters = enters_others(false);
   }
   if (enters && !forced) {
     return false;
   }
-  if (enters) {
-    intrude();
-  }
+  static_cast<void>(enters && enters_others(true));
   memory.ahead = memory.next;
   way_ = now;
   take(memory.ahead);
   return true;
 }
 
-bool SharedSpace::enters_others() noexcept {
-  const Memory& memory = memory_.front();
-  const auto* const found = std::find_if(others_.begin(), others_.end(), [&](const SpaceReport* one) {
-    return one != nullptr && one->known && meets(memory.next, memory.here, one->held);
-  });
-  if (found == others_.end()) {
-    return false;
-  }
-  say("the arm would come into the way of ", (*found)->name.view(), "");
-  return true;
-}
-
-void SharedSpace::intrude() noexcept {
+// Returns whether the next cells are some of others; text() says whose.
+bool SharedSpace::enters_others(bool counts) noexcept {
   Memory& memory = memory_.front();
+  bool enters = false;
   for (const SpaceReport* one : others_) {
-    if (one != nullptr && one->known && memory.own.known && meets(memory.next, memory.here, one->held)) {
-      memory.own.intruded = one->name;
-      ++memory.own.intrusions;
+    if (one != nullptr && one->known && meets(memory.next, memory.here, one->held)) {
+      say("the arm would come into the way of ", one->name.view(), "");
+      enters = true;
+      if (counts && memory.own.known) {
+        memory.own.intruded = one->name;
+        ++memory.own.intrusions;
+      }
     }
   }
+  return enters;
 }
 
 // Motions that were followed and are no longer.

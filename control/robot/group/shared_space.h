@@ -77,7 +77,7 @@ class SharedSpace {
     SpaceCells ahead{};            // where the arm is, and where it may be before it comes to rest
     SpaceCells here{};             // these, and those of granted motions
     SpaceCells recent{}, older{};  // of motions that have ended: drives lag behind
-    SpaceCells next{}, rest{};     // being computed
+    SpaceCells next{};             // being computed
     std::array<SpaceCells, 12> plans{};
   };
   // The way for which `ahead` was computed: from the place that the drives report over the last set points to where the
@@ -107,8 +107,7 @@ class SharedSpace {
   [[nodiscard]] bool covers(const Way& way) const noexcept;
   bool follow(bool off_path, bool forced) noexcept;
   void stamp(const Way& way) noexcept;
-  bool enters_others() noexcept;
-  void intrude() noexcept;
+  bool enters_others(bool counts) noexcept;
   void age() noexcept;
   void note_motions() noexcept;
   void take(const SpaceCells& cells) noexcept;

@@ -52,10 +52,8 @@ SharedSpace::Answer SharedSpace::meet(const SpaceCells* cells, std::string_view 
   const std::size_t count = robot_.parts.settings.other_robots.size();
   granted_ = cells;
   changed_ = true;
-  SpaceCells& none = memory_.front().next;
-  none.fill(0);
   if (met_for_ > 0) {
-    return wait_for(0, none);  // the robots may still see the last time
+    return wait_for(0, {});  // the robots may still see the last time
   }
   report.sync_since = report.sync_since == 0 ? tick_ : report.sync_since;
   report.sync = name;
@@ -67,7 +65,7 @@ SharedSpace::Answer SharedSpace::meet(const SpaceCells* cells, std::string_view 
       all = all && one->sync_since < tick_;
       continue;
     }
-    const Answer answer = wait_for(i, none);
+    const Answer answer = wait_for(i, {});
     if (ready) {
       say("", one->name.view(), " waits at another SYNC: ", one->sync.view());
     }
@@ -92,8 +90,7 @@ bool SharedSpace::is_free(const SpaceReport& other, const SpaceCells& cells) noe
   if (!is_older(other) || !meets(cells, other.wanted)) {
     return true;
   }
-  SpaceCells& rest = memory_.front().rest;
-  rest.fill(0);
+  SpaceCells rest{};
   arm_.add(robot_.follower.end(), Joints::Zero(), robot_.tool.number(), grid_.slack(), rest);
   return meets(rest, other.wanted);
 }

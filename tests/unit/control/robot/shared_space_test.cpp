@@ -161,6 +161,26 @@ TEST_F(Shared_space, A_robot_stops_on_its_path_if_another_one_comes_into_its_way
   EXPECT_NEAR(turned(kA), 0, 1e-6);
 }
 
+// It names only one of them.
+TEST_F(Shared_space, A_robot_that_comes_into_the_way_of_several_stops_all_of_them) {
+  begin("MOVJ IN\n", "");
+  start(kA);
+  ASSERT_TRUE(sut->until([&] { return turned(kA) < 80; }));
+  SpaceReport other = sut->report(kB);
+  other.intruded = "C";
+  other.intrusions += 2;
+  const auto step = [&] {
+    (*sut)[kA].in.others[0] = &other;
+    (*sut)[kA].step();
+  };
+  step();
+  EXPECT_EQ((*sut)[kA].out.state, GroupState::Moving) << "B is not in cells of A";
+  other.held.fill(~std::uint64_t{0});
+  other.intrusions += 2;
+  step();
+  EXPECT_EQ((*sut)[kA].out.error, ErrorCode::OtherRobot);
+}
+
 // They go to their places one after the other, and move together from there.
 TEST_F(Shared_space, Motions_with_the_same_SYNC_begin_in_the_same_period) {
   const std::string lift = "LOOP 5\nMOVJ FAR SYNC lift SPEED 50%\nWAIT 0.2 s\nMOVJ OUT SYNC lower\nEND\n";
@@ -186,6 +206,25 @@ TEST_F(Shared_space, Motions_with_the_same_SYNC_begin_in_the_same_period) {
     return ended(kA) && ended(kB);
   }));
   EXPECT_EQ(begun, 10);
+}
+
+TEST_F(Shared_space, Three_robots_begin_together_when_the_last_one_is_ready) {
+  const std::string job = kPoints + "LOOP 3\nMOVJ FAR SYNC go\nMOVJ OUT SYNC return\nEND\n";
+  sut.emplace(std::vector<SharingRobot>{{"A", job},
+                                        {"B", "WAIT 0.5 s\n" + job, {1400, 0, 0, 0, 0, 180}},
+                                        {"C", "WAIT 1 s\n" + job, {700, 2500, 0, 0, 0, -90}}},
+              4);
+  ASSERT_TRUE(sut->enable());
+  for (std::size_t robot = 0; robot < sut->size(); ++robot) {
+    start(robot);
+  }
+  ASSERT_TRUE(sut->until([&] { return turned(2) < 90; }));
+  for (int i = 0; i < 20000 && !(ended(0) && ended(1) && ended(2)); ++i) {
+    EXPECT_EQ(turned(0), turned(1));
+    EXPECT_EQ(turned(0), turned(2));
+    sut->step();
+  }
+  EXPECT_TRUE(ended(2));
 }
 
 TEST_F(Shared_space, A_robot_waits_with_SYNC_and_keeps_the_space_of_its_motion) {
@@ -240,6 +279,41 @@ TEST_F(Shared_space, Nothing_moves_before_the_other_robot_has_reported) {
   EXPECT_EQ(turned(kA), 90);
   EXPECT_EQ(a.out.space->waits_for, "B");
   EXPECT_TRUE(sut->until([&] { return ended(kA); }));
+}
+
+// A robot that is not homed holds everything, also the cells of the tool that another one selects.
+TEST_F(Shared_space, A_tool_that_is_selected_at_rest_in_cells_of_another_robot_does_not_stop_the_job) {
+  begin("TOOL grip = POSE 0 0 150 RPY 0 0 0\nBODY grip = BOX -50 -50 0 50 50 150\nTOOL grip\nMOVJ FAR\n", "");
+  SpaceReport everything = sut->report(kB);
+  everything.held.fill(~std::uint64_t{0});
+  Cell& a = (*sut)[kA];
+  a.in.service.job = 1;
+  a.ask(Service::JobStart);
+  for (int i = 0; i < 200; ++i) {
+    a.in.others[0] = &everything;
+    a.step();
+  }
+  EXPECT_EQ(a.out.state, GroupState::Moving);
+  EXPECT_EQ(a.out.tool, 1U);
+  EXPECT_EQ(a.out.space->waits_for, "B");
+  EXPECT_EQ(turned(kA), 90);
+  EXPECT_TRUE(sut->until([&] { return ended(kA); }));
+}
+
+TEST(Robots_that_share_their_space, Need_bodies_of_links) {
+  Settings settings;
+  settings.name = "A";
+  settings.other_robots = {"B"};
+  settings.cell_box = {0, 0, 0, 1, 1, 1};
+  const std::string tool =
+      "TOOL grip = POSE 0 0 150 RPY 0 0 0\nBODY grip = BALL 0 0 0 RADIUS 50\n"
+      "KEEPOUT table = BOX -900 -900 -90 900 900 -10\n";
+  try {
+    static_cast<void>(controller_of(cell_urdf(), tool, settings));
+    FAIL() << "it was accepted";
+  } catch (const std::exception& wrong) {
+    EXPECT_THAT(wrong.what(), HasSubstr("robots that share their space need bodies; give links <collision>"));
+  }
 }
 
 TEST_F(Shared_space, Robots_with_different_boxes_do_not_move) {
