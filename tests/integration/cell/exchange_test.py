@@ -19,6 +19,7 @@ from cell_test import RunningCell, copy_configuration
 from stops_test import configure
 
 SIMULATED_S = 90
+MOST_TRIES = 4  # of each simulation
 VALUES = ("PLC_ROBOT::AXIS?_IN", "PLC_ROBOT::AXIS?_OUT", "PLC_ROBOT::ROBOT_*", "PLC_ROBOT::O*")
 DIFFERS, WENT_BACK = 4, 5  # exit codes of reload
 NOT_RUNNING = ("does not run", "there is no node", "the node itself ends", "has ended")  # not yet, or no more
@@ -84,7 +85,8 @@ def without_a_difference(arguments, configuration, boards, simulations):
         reference = Simulation(arguments, folder, configuration, boards, "reference").values()
         assert all(len(table) > 5000 for table in reference), "the cell does not work"
         ladders = [f"{arguments.cell}/main_remembers.so", f"{arguments.cell}/main.so"]
-        for number in range(simulations):
+        done = 0
+        for number in range(MOST_TRIES * simulations):
             simulation = Simulation(arguments, folder, configuration, boards, f"exchanged{number}")
             ticks = []
             while len(ticks) == 0 or ticks[-1] is not None:
@@ -92,8 +94,11 @@ def without_a_difference(arguments, configuration, boards, simulations):
                 ticks.append(simulation.exchange(ladders[len(ticks) % 2]))
             compare(reference, simulation.values(), boards)
             exchanged = [tick for tick in ticks if tick is not None]
-            assert len(exchanged) >= 2, "nothing was exchanged"
             print(f"{configuration}: equal with exchanges in ticks {exchanged}")
+            done += 1 if len(exchanged) >= 2 else 0  # on a busy machine it may end before the second command
+            if done == simulations:
+                return
+        raise AssertionError(f"{configuration}: two exchanges in {done} of {MOST_TRIES * simulations} simulations only")
 
 
 def press_start(cell):
