@@ -83,8 +83,8 @@ class RobotSpace {
   static Names names_of(const std::string& robot) { return {robot + "::ROBOT_SPACE", robot + "::ROBOT_HELD"}; }
   static void check(bool found, const Names& names) {
     if (!found) {
-      throw std::runtime_error("property other_robots: this node has no variable " + names.space +
-                               "; name the robot's namespace, and build it with its robot_space.glb");
+      throw std::runtime_error("property other_robots: no variable " + names.space +
+                               "; build that robot with its robot_space.glb");  // the node shows 120 characters
     }
   }
   bool read(One& one) noexcept {
