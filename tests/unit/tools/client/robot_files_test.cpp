@@ -88,7 +88,7 @@ TEST_F(Robot_files, Other_robots_are_declared_and_named_in_access) {
               testing::IsSupersetOf(
                   {HasSubstr("property other_robots: 'PLC_ROBOT2::ROBOT_HELD' is not in <access> of this module"),
                    HasSubstr("property other_robots: no module of this node declares 'PLC_ROBOT3::ROBOT_SPACE'")}));
-  config_.modules[0].reads.push_back("PLC_ROBOT2::ROBOT_HELD");
+  config_.modules[0].reads.emplace_back("PLC_ROBOT2::ROBOT_HELD");
   EXPECT_THAT(errors(), testing::Not(testing::Contains(HasSubstr("<access>"))));
 }
 
