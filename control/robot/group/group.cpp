@@ -79,7 +79,8 @@ bool Group::stopped_for_emergency() const noexcept {
 
 // Monitors what may end a motion from outside: the emergency stop, drives, axes that do not follow.
 void Group::watch(const Inputs& in) noexcept {
-  const bool intruded = space_.sense(in.others, in.tick);
+  const bool held = in.hold || !(in.speed_override / 100 >= Follower::kStill);
+  const bool intruded = space_.sense(in.others, in.tick, held);
   if (in.emergency && !stopped_for_emergency() && commands_motion()) {
     trip(ErrorCode::Emergency, 0, robot_.parts.settings.emergency_factor);
     return;

@@ -18,10 +18,6 @@ SharedSpace::SharedSpace(const Robot& robot) : robot_(robot), arm_(robot.tool.pl
   std::copy_n(settings.cell_box.begin(), own().box.size(), own().box.begin());
 }
 
-const std::string& SharedSpace::name(std::size_t other) const noexcept {
-  return robot_.parts.settings.other_robots[other];
-}
-
 const SpaceReport* SharedSpace::other(std::string_view name) const noexcept {
   const auto* const found = std::find_if(others_.begin(), others_.end(), [&](const SpaceReport* one) {
     return one != nullptr && one->known && one->name == name;
@@ -34,16 +30,13 @@ void SharedSpace::say(const char* before, std::string_view name, const char* aft
                 static_cast<int>(end.size()), end.data());
 }
 
-int SharedSpace::periods(double seconds) const noexcept {
-  return static_cast<int>(std::ceil(seconds / robot_.period));
-}
-
-bool SharedSpace::sense(const Others& others, std::uint64_t tick) noexcept {
+bool SharedSpace::sense(const Others& others, std::uint64_t tick, bool held) noexcept {
   if (!on()) {
     return false;
   }
   others_ = others;
   tick_ = tick + 1;
+  held_ = held;
   bool intruded = false;
   for (std::size_t i = 0; i < others_.size(); ++i) {
     if (others_[i] == nullptr || !others_[i]->known) {

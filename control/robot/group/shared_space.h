@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -43,8 +44,8 @@ class SharedSpace {
   void set_shelf(const PathPieces& shelf) noexcept { shelf_ = &shelf; }
 
   // Takes the reports of the other robots. Returns whether one of them has come into the cells of this robot since the
-  // last period; text() says which.
-  [[nodiscard]] bool sense(const Others& others, std::uint64_t tick) noexcept;
+  // last period; text() says which. `held`: this robot would not move now.
+  [[nodiscard]] bool sense(const Others& others, std::uint64_t tick, bool held) noexcept;
   // Memory for the cells of a motion that is about to be planned; null: there is none, or the space is not shared.
   [[nodiscard]] SpaceCells* cells_for_plan(const PlanningDesk& desk) noexcept;
 
@@ -93,13 +94,17 @@ class SharedSpace {
   [[nodiscard]] SpaceReport& own() noexcept { return memory_.front().own; }
   [[nodiscard]] const SpaceReport& own() const noexcept { return memory_.front().own; }
   [[nodiscard]] const SpaceReport* other(std::string_view name) const noexcept;
-  [[nodiscard]] const std::string& name(std::size_t other) const noexcept;
+  [[nodiscard]] const std::string& name(std::size_t other) const noexcept {
+    return robot_.parts.settings.other_robots[other];
+  }
   Answer request(std::span<const SpaceCells* const> cells) noexcept;
   [[nodiscard]] bool is_free(const SpaceReport& other, const SpaceCells& cells) noexcept;
   [[nodiscard]] bool is_older(const SpaceReport& other) const noexcept;
   Answer wait_for(std::size_t other, const SpaceCells& cells) noexcept;
   [[nodiscard]] bool loses_deadlock() const noexcept;
-  [[nodiscard]] int periods(double seconds) const noexcept;
+  [[nodiscard]] int periods(double seconds) const noexcept {
+    return static_cast<int>(std::ceil(seconds / robot_.period));
+  }
   void say(const char* before, std::string_view name, const char* after, std::string_view end = "") noexcept;
 
   [[nodiscard]] bool is_granted(bool off_path) const noexcept;
@@ -128,6 +133,7 @@ class SharedSpace {
   std::array<std::uint64_t, kOtherRobots> met_{};  // SpaceReport::sync_since of the last motions that began together
   bool changed_ = true;
   bool requested_ = false;  // in this period
+  bool held_ = false;
   // Periods.
   int deadlocked_ = 0;
   int age_ = 0;

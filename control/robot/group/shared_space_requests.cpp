@@ -52,7 +52,10 @@ SharedSpace::Answer SharedSpace::meet(const SpaceCells* cells, std::string_view 
   const std::size_t count = robot_.parts.settings.other_robots.size();
   granted_ = cells;
   changed_ = true;
-  if (met_for_ > 0) {
+  if (met_for_ == 0 && held_) {
+    report.sync_since = 0;  // it could not begin
+  }
+  if (met_for_ > 0 || held_) {
     return wait_for(0, {});  // the robots may still see the last time
   }
   report.sync_since = report.sync_since == 0 ? tick_ : report.sync_since;
@@ -90,7 +93,7 @@ bool SharedSpace::is_free(const SpaceReport& other, const SpaceCells& cells) noe
   if (!is_older(other) || !meets(cells, other.wanted)) {
     return true;
   }
-  SpaceCells rest{};
+  SpaceCells rest = robot_.follower.idle() ? memory_.front().ahead : SpaceCells{};
   arm_.add(robot_.follower.end(), Joints::Zero(), robot_.tool.number(), grid_.slack(), rest);
   return meets(rest, other.wanted);
 }
@@ -111,7 +114,7 @@ SharedSpace::Answer SharedSpace::wait_for(std::size_t other, const SpaceCells& c
   }
   report.wanted = box_around(cells);
   report.waits_for = std::string_view(name(other));
-  report.stands = robot_.follower.idle() && robot_.axes.gates_at_rest();
+  report.stands = robot_.follower.idle() && robot_.axes.gates_at_rest() && !held_;
   say("waits for ", report.waits_for.view(), "");
   deadlocked_ = loses_deadlock() ? deadlocked_ + 1 : 0;
   if (deadlocked_ < periods(kDeadlock)) {

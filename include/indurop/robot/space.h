@@ -29,7 +29,7 @@ struct SpaceReport {
   string<32> name;               // of the robot: the namespace of its variables
   std::array<double, 6> box{};   // mm, the box of its space: x y z of two opposite corners
   string<32> waits_for;          // the robot whose cells its next motion needs; empty: it waits for none
-  bool stands = false;           // it waits at rest
+  bool stands = false;           // it waits at rest, and is not held
   std::uint32_t ticket = 0;      // its place in the queue of the robots that wait, smaller ones are first; 0: none
   std::uint32_t intrusions = 0;  // how often it came into the cells of another robot, after a fault for example
   string<32> intruded;           // the robot into whose cells it came last

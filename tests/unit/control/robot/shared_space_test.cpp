@@ -208,6 +208,22 @@ TEST_F(Shared_space, Motions_with_the_same_SYNC_begin_in_the_same_period) {
   EXPECT_EQ(begun, 10);
 }
 
+TEST_F(Shared_space, A_robot_that_is_held_is_not_ready_to_begin_with_others) {
+  begin("MOVJ FAR SYNC go\n", "WAIT 1 s\nMOVJ FAR SYNC go\n");
+  start(kA);
+  start(kB);
+  ASSERT_TRUE(sut->until([&] { return waits_for(kA) == "B"; }));
+  (*sut)[kA].in.hold = true;
+  run(3);
+  EXPECT_EQ(waits_for(kB), "A");
+  EXPECT_EQ(turned(kB), 90);
+  EXPECT_EQ((*sut)[kB].out.state, GroupState::Moving) << "it is no deadlock";
+  (*sut)[kA].in.hold = false;
+  ASSERT_TRUE(sut->until([&] { return turned(kB) < 90; }));
+  EXPECT_EQ(turned(kA), turned(kB));
+  EXPECT_TRUE(sut->until([&] { return ended(kA) && ended(kB); }));
+}
+
 TEST_F(Shared_space, Three_robots_begin_together_when_the_last_one_is_ready) {
   const std::string job = kPoints + "LOOP 3\nMOVJ FAR SYNC go\nMOVJ OUT SYNC return\nEND\n";
   sut.emplace(std::vector<SharingRobot>{{"A", job},
