@@ -8,6 +8,7 @@
 #include <indurop/generated.h>
 #include <indurop/robot/controller.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <sstream>
@@ -221,6 +222,25 @@ void write_arm() {
   arm->bMayMove = out.may_move;
 }
 
+void write_path() {
+  if (!out.ways_changed) {
+    return;
+  }
+  auto path = lock(ROBOT_PATH);
+  for (std::size_t k = 0; k < out.ways.size(); ++k) {
+    auto& motion = path->motion[k];
+    const robot::ToolWay* const way = out.ways[k];
+    motion = {};
+    if (way != nullptr) {
+      motion.nPlaces = way->count;
+      for (std::size_t i = 0; i < way->count; ++i) {
+        std::copy(way->place[i].begin(), way->place[i].end(), motion.place.begin() + 3 * i);
+        motion.speed[i] = way->speed[i];
+      }
+    }
+  }
+}
+
 void write_job() {
   auto job = lock(ROBOT_JOB);
   job->eState = static_cast<ROBOT_JOB_STATE>(out.job.state);
@@ -336,6 +356,7 @@ void run() {
   write_axes();
   write_state();
   write_arm();
+  write_path();
   write_job();
   space->write(out);
   write_question();

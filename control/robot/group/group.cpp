@@ -9,7 +9,8 @@ Group::Group(GroupParts parts)
     : robot_(std::move(parts)),
       correction_(robot_),
       space_(robot_),
-      plans_(robot_, correction_, space_),
+      ways_(robot_),
+      plans_(robot_, correction_, space_, ways_),
       mode_(robot_),
       torques_(robot_, *this),
       resuming_(robot_, *this, plans_, correction_),
@@ -30,6 +31,7 @@ Group::Group(GroupParts parts)
       breakdown_(robot_, *this),
       motion_report_(robot_, conveyor_) {
   space_.set_shelf(shelf_.path().pieces);
+  ways_.set_shelf(shelf_.path().pieces);
   begin_keeping();
 }
 
@@ -179,6 +181,7 @@ void Group::report(Outputs& out) noexcept {
   out.commands = robot_.table.answers();
   breakdown_.report(out);
   out.space = space_.report();
+  ways_.report(!conveyor_.on(), out);
   conveyor_.update_product();
   motion_report_.report(commands_motion(), out);
 }

@@ -30,6 +30,7 @@
 #include "control/robot/group/shared_space.h"
 #include "control/robot/group/stops.h"
 #include "control/robot/group/torque_watch.h"
+#include "control/robot/group/ways_ahead.h"
 #include "control/robot/kinematics/zeroed.h"
 
 namespace indurop::robot {
@@ -94,6 +95,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   Robot robot_;
   PathCorrection correction_;
   SharedSpace space_;
+  WaysAhead ways_;
   Plans plans_;
   ModeGuard mode_;
   TorqueWatch torques_;

@@ -8,6 +8,8 @@ void Plans::ask(const PlanRequest& request) noexcept {
   asked.follows = asked.follows && robot_.follower.goes_over() && !unconnected_;
   asked.reserve = correction_.shifts() ? PathCorrection::kReserve : 0;
   asked.cells = request.unreserved ? nullptr : space_.cells_for_plan(desk_);
+  asked.way = ways_.for_plan(desk_);
+  asked.cut = asked.way != nullptr && asked.follows ? ways_.for_plan(desk_, asked.way) : nullptr;
   unconnected_ = false;
   desk_.ask(asked);
   request_ = asked;
@@ -51,6 +53,9 @@ const Plan* Plans::take() noexcept {
   plan = granted(*plan);
   if (plan == nullptr || !plan->fault.ok()) {
     return plan;
+  }
+  if (plan->cut != nullptr) {
+    robot_.follower.set_way(plan->cut);
   }
   robot_.follower.add(plan->segment, plan->blend);
   if (plan->parts) {

@@ -6,6 +6,7 @@
 #include "control/robot/group/path_correction.h"
 #include "control/robot/group/robot.h"
 #include "control/robot/group/shared_space.h"
+#include "control/robot/group/ways_ahead.h"
 #include "control/robot/plan/planning_desk.h"
 #include "control/robot/plan/read_ahead.h"
 
@@ -13,10 +14,11 @@ namespace indurop::robot {
 
 class Plans {
  public:
-  Plans(Robot& robot, const PathCorrection& correction, SharedSpace& space)
+  Plans(Robot& robot, const PathCorrection& correction, SharedSpace& space, WaysAhead& ways)
       : robot_(robot),
         correction_(correction),
         space_(space),
+        ways_(ways),
         ahead_(robot.tool.places(), robot.parts.tool),
         desk_(robot.tool.places(), robot.parts.joints, robot.parts.tool, robot.parts.settings, space.grid()) {}
 
@@ -65,6 +67,7 @@ class Plans {
 
   const PathCorrection& correction_;
   SharedSpace& space_;
+  WaysAhead& ways_;
   ReadAhead ahead_;
   PlanningDesk desk_;
   PlanRequest request_;

@@ -28,6 +28,12 @@ void FollowedPath::add(const Segment& segment, const Blend& blend) noexcept {
   }
 }
 
+void FollowedPath::set_way(const ToolWay* way) noexcept {
+  if (!empty()) {
+    pieces_.segments[static_cast<std::size_t>(pieces_.count - 1)].way_ahead = way;
+  }
+}
+
 void FollowedPath::replace(const Segment& segment, const LineState& state) noexcept {
   pieces_.segments[0] = segment;
   pieces_.count = 1;

@@ -34,6 +34,9 @@ struct KeptPath {
   [[nodiscard]] bool known() const noexcept { return pieces.count > 0; }
 };
 
+// The speed in a blend after which it is possible to stop on the next segment, should that be the last one.
+double blend_speed(const Blend& blend, const Segment& next) noexcept;
+
 class FollowedPath final : public PathAhead {
  public:
   // A speed below this part of the planned one is none.
@@ -48,6 +51,8 @@ class FollowedPath final : public PathAhead {
   void clear() noexcept;
   // The path continues with this segment after its last one.
   void add(const Segment& segment, const Blend& blend) noexcept;
+  // Replaces what is reported of the last segment, if there is one.
+  void set_way(const ToolWay* way) noexcept;
   // The path is this segment only, at this state.
   void replace(const Segment& segment, const LineState& state) noexcept;
   // The path is a kept one, at rest at the place where it was left; it is followed more gently from there on. The kept

@@ -7,6 +7,15 @@
 
 namespace indurop::robot {
 
+double blend_speed(const Blend& blend, const Segment& next) noexcept {
+  const double rest = next.length - blend.zone;
+  double speed = blend.limits.velocity;
+  while (speed > FollowedPath::kStill && ramp({0, speed, 0}, 0, next.limits).distance > rest) {
+    speed *= 0.9;
+  }
+  return speed;
+}
+
 // This is decided once, before the first segment is too near its end to reach the blend's speed.
 bool FollowedPath::begin_blend() noexcept {
   if (pieces_.count < 2 || in_blend() || blend().zone > 0 || segment().timed) {
@@ -17,12 +26,7 @@ bool FollowedPath::begin_blend() noexcept {
   if (wanted.zone <= 0) {
     return false;
   }
-  // The second segment may be the last: it must be possible to stop on it.
-  const double rest = next.length - wanted.zone;
-  double& speed = wanted.limits.velocity;
-  while (speed > kStill && ramp({0, speed, 0}, 0, next.limits).distance > rest) {
-    speed *= 0.9;
-  }
+  const double speed = wanted.limits.velocity = blend_speed(wanted, next);
   const double left = segment().length - wanted.zone - state_.position;
   const bool in_time = left > 0 && (state_.velocity <= 0 ||
                                     ramp(state_, std::min(speed, state_.velocity), segment().limits).distance <= left);

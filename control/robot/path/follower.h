@@ -25,6 +25,8 @@ class Follower {
   [[nodiscard]] const Joints& end() const noexcept { return idle() ? q_ : path_.last().to; }
   // `blend`: from the previous segment into this one, if they may be passed without a stop.
   void add(const Segment& segment, const Blend& blend = {}) noexcept;
+  // Replaces what is reported of the segment that was added last.
+  void set_way(const ToolWay* way) noexcept { path_.set_way(way); }
 
   // Gives access to the collision check to exchange its bodies. The follower must be idle.
   [[nodiscard]] CollisionCheck& clear_way() noexcept { return joint_motions_.collisions(); }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <indurop/robot/space.h>
+#include <indurop/robot/tool_way.h>
 
 #include <optional>
 
@@ -109,8 +110,9 @@ struct Segment {
   // For joints that arrive together: part of full speed, and the factor by which torque limits lengthen the motion.
   double speed = 1;
   double slowness = 1;
-  const SpaceCells* cells = nullptr;  // of the shared space, through which it leads; null: unknown; not owned
-  int sync = -1;                      // as MoveCommand::sync
+  const SpaceCells* cells = nullptr;   // of the shared space, through which it leads; null: unknown; not owned
+  int sync = -1;                       // as MoveCommand::sync
+  const ToolWay* way_ahead = nullptr;  // what is reported of it; null: nothing; not owned
 
   // Position of a joint motion. `place` is from 0 to length. Real-time safe, like all functions of this struct.
   [[nodiscard]] Joints joints_at(double place) const noexcept;

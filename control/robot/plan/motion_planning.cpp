@@ -19,6 +19,7 @@ Fault MotionPlanning::finish(Fault fault, const std::atomic<bool>& dropped) noex
 void MotionPlanning::plan(const PlanRequest& request, const std::atomic<bool>& dropped, Plan& plan) noexcept {
   planner_.spare(request.reserve);
   plan.blend = {};
+  plan.cut = nullptr;
   plan.parts = false;
   if (request.chain != nullptr) {
     plan.fault = finish(
@@ -45,8 +46,19 @@ void MotionPlanning::plan(const PlanRequest& request, const std::atomic<bool>& d
         sweep_.add(before_, plan.blend, plan.segment, dropped, *request.cells);
       }
     }
+    sample_way(request, plan);
     before_ = plan.segment;
   }
+}
+
+void MotionPlanning::sample_way(const PlanRequest& request, Plan& plan) noexcept {
+  plan.segment.way_ahead = nullptr;
+  if (request.way == nullptr || (plan.blend.zone > 0 && request.cut == nullptr)) {
+    return;
+  }
+  way_.sample(before_, plan.blend, plan.segment, request.cut, *request.way);
+  plan.segment.way_ahead = request.way;
+  plan.cut = plan.blend.zone > 0 && request.cut->count > 0 ? request.cut : nullptr;
 }
 
 void MotionPlanning::plan_one(const PlanRequest& request, const std::atomic<bool>& dropped, Plan& plan) noexcept {

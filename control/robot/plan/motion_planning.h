@@ -10,6 +10,7 @@
 #include "control/robot/path/chain.h"
 #include "control/robot/plan/path_sweep.h"
 #include "control/robot/plan/planner.h"
+#include "control/robot/plan/way_ahead.h"
 
 namespace indurop::robot {
 
@@ -25,26 +26,31 @@ struct PlanRequest {
   JointPath* joint_path = nullptr;  // of a free motion: receives its path; is not used until the motion has ended
   bool unreserved = false;          // the motion is not granted as a whole, but step by step while it is executed
   SpaceCells* cells = nullptr;      // receives the cells through which it leads; null: they are not needed
+  // Receive the way of the tool, and that of the motion before up to a blend into this one; null: they are not needed.
+  ToolWay* way = nullptr;
+  ToolWay* cut = nullptr;
 };
 
 struct Plan {
   Fault fault;
-  Segment segment;     // if planning failed only its source is valid
-  Blend blend;         // from the motion before into this one
-  bool parts = false;  // the lines of the chain are followed one by one; this is the first one
+  Segment segment;               // if planning failed only its source is valid
+  Blend blend;                   // from the motion before into this one
+  const ToolWay* cut = nullptr;  // replaces the way of the motion before; null: it remains
+  bool parts = false;            // the lines of the chain are followed one by one; this is the first one
 };
 
 class MotionPlanning {
  public:
   // `grid`: as for PathSweep.
   MotionPlanning(const Places& places, const JointLimits& joints, const ToolLimits& tool, const CellGrid* grid)
-      : joints_(joints), planner_(places, joints, tool), sweep_(places, joints_, grid) {}
+      : joints_(joints), planner_(places, joints, tool), sweep_(places, joints_, grid), way_(places, joints_) {}
 
   [[nodiscard]] Planner& planner() noexcept { return planner_; }
   // Makes the plan; `dropped` abandons it. Real-time safe unless collisions have to be checked.
   void plan(const PlanRequest& request, const std::atomic<bool>& dropped, Plan& plan) noexcept;
 
  private:
+  void sample_way(const PlanRequest& request, Plan& plan) noexcept;
   void plan_one(const PlanRequest& request, const std::atomic<bool>& dropped, Plan& plan) noexcept;
   // Plans the same motion with its zone. Returns whether it is faster that way; `stopping` is the motion without.
   [[nodiscard]] bool zone_helps(const PlanRequest& request, const std::atomic<bool>& dropped, const Segment& stopping,
@@ -59,6 +65,7 @@ class MotionPlanning {
   Planner planner_;
   Segment before_;
   PathSweep sweep_;
+  WayAhead way_;
 };
 
 }  // namespace indurop::robot

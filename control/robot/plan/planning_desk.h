@@ -44,9 +44,13 @@ class PlanningDesk {
   const Plan* take() noexcept;
   // The planner, for replacing its bodies; requires free() and no abandoned request in use.
   [[nodiscard]] Planner& planner() noexcept { return planning_.planner(); }
-  // Returns whether a plan, or one that was abandoned, uses these cells.
+  // Returns whether a plan, or one that was abandoned, uses these cells or this way.
   [[nodiscard]] bool uses(const SpaceCells* cells) const noexcept {
     return (asked_ && waiting_.cells == cells) || request_.cells == cells;
+  }
+  [[nodiscard]] bool uses(const ToolWay* way) const noexcept {
+    const auto has = [way](const PlanRequest& request) { return request.way == way || request.cut == way; };
+    return (asked_ && has(waiting_)) || has(request_);
   }
   // Announces that plans will soon be requested.
   void expect_work(bool soon) noexcept { soon_.store(soon, std::memory_order_relaxed); }

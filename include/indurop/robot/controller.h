@@ -8,6 +8,7 @@
 #include <indurop/robot/commands.h>
 #include <indurop/robot/questions.h>
 #include <indurop/robot/space.h>
+#include <indurop/robot/tool_way.h>
 #include <indurop/robot/words.h>
 #include <indurop/string.h>
 
@@ -257,6 +258,10 @@ struct Outputs {
   std::uint32_t tool = 0;                   // in use; 0: none
   const char* tool_name = "";               // valid as long as the controller
   const SpaceReport* space = nullptr;       // for other robots; null: Settings::other_robots is empty; valid so long
+  // The motions that are planned, the present one first; null: no more, or it is not known where they lead. They are
+  // valid until the next step. And whether this differs from the step before.
+  std::array<const ToolWay*, kWaysAhead> ways{};
+  bool ways_changed = false;
   // Reason why the task cannot continue, set once its drives have no power: the module must end. Null: it can continue.
   const char* broken = nullptr;
 };
