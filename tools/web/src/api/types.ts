@@ -405,10 +405,24 @@ export interface Histogram {
   bins: [number, number, number][];
 }
 
+// A zone that the arm keeps out of, in the frame of the base; or part of a tool, in that of the arm's end.
+export interface RobotBody {
+  name: string;
+  tool?: number;
+  kind: "box" | "cylinder" | "ball";
+  size: number[];  // mm
+  position: number[];
+  orientation: number[];  // deg, roll pitch yaw
+}
+
 export interface Robot {
   module: string;
   urdf: string;
   frames: string[];
+  zones?: RobotBody[];
+  bodies?: RobotBody[];
+  workspace?: number[];  // mm, two corners; empty: none
+  problem?: string;  // why zones are not known
   name?: string;  // added by the page, from the text
 }
 

@@ -5,8 +5,13 @@ export const GROUP_STATES = ["disabled", "standby", "moving", "homing", "stoppin
 export const JOB_STATES = ["idle", "running", "waiting", "ended", "failed", "paused"];
 export const SERVICE = { enable: 1, reset: 3, stop: 10, job_stop: 12 };  // OPCODE_ROBOT_SERVICE
 
-// A .glb file may name errors: "ROBOT_ERR_JOINT_LIMIT" is shown as "joint limit".
+// The name that a .glb file gives an error, "ROBOT_ERR_JOINT_LIMIT"; empty: none.
+export function name_of_error(error: number, enumerators: Record<string, number> | undefined): string {
+  return Object.entries(enumerators ?? {}).find(([, value]) => value === error)?.[0] ?? "";
+}
+
+// It is shown as "joint limit".
 export function error_text(error: number, enumerators: Record<string, number> | undefined): string {
-  const name = Object.entries(enumerators ?? {}).find(([, value]) => value === error)?.[0];
+  const name = name_of_error(error, enumerators);
   return name ? `Error ${error}, ${name.replace(/^.*ERR_/, "").replaceAll("_", " ").toLowerCase()}` : `Error ${error}`;
 }

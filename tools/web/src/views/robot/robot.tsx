@@ -13,7 +13,9 @@ import { useRequest, useStore } from "../../ui/store";
 import { Jog } from "./jog";
 import { Question } from "./question";
 import type { Scene } from "./scene";
-import { scopes_of, useRobotState, type RobotState, type Scope } from "./state";
+import { end_of_scale, SCALE_STYLE } from "./speeds";
+import { scopes_of, useRobotState, useWays, type RobotState, type Scope, type Way } from "./state";
+import { way_out } from "./way_out";
 
 const PURPOSE = "This view draws a robot arm at its current position with the path of its tool, shows its job and its axes, and jogs it.";
 const MODULES_MS = 1000;
@@ -31,7 +33,7 @@ function name_in(urdf: string): string {
 
 async function fetch_robots(board: string): Promise<Robots> {
   const called = (name: string) => get<Variables>(board_path(board, `/variables?values=false&match=*${name}`));
-  const found = await Promise.all([called("ROBOT_ARM"), called("ROBOT_SPACE")]);
+  const found = await Promise.all([called("ROBOT_ARM"), called("ROBOT_SPACE"), called("ROBOT_PATH")]);
   const scopes = scopes_of(found.flatMap(({ variables }) => variables));
   try {
     const { robots } = await get<{ robots: Description[] }>(board_path(board, "/robots"));
@@ -62,8 +64,13 @@ function why_down(alive: boolean, scope: Scope | null, modules: Module[] | null)
 
 function Reasons({ state }: { state: RobotState }) {
   const failed = state.job_state === "failed";
+  const next = way_out(state);
   if (!state.error && !(failed && state.job_message)) return null;
-  return <p class="bad">{[state.error, state.job_message].filter(Boolean).join(": ")}</p>;
+  return (
+    <>
+      <p class="bad">{[state.error, state.job_message].filter(Boolean).join(": ")}</p>
+      {next && <p class="why warn">{next}</p>}
+    </>);
 }
 
 function Numbers({ state, names, down }: { state: RobotState; names: string[]; down: string }) {
@@ -96,22 +103,23 @@ interface Drawn {
   scene: Scene;
   names: string[];
   kinds: string[];
+  ahead?: { ways: Way[]; fastest: number };  // drawn last
 }
 
 // Drawing needs far more code than the rest of the page: it is loaded when a robot is shown.
-function useScene(urdf: string | null): { box: { current: HTMLDivElement | null }; drawn: { current: Drawn | null }; names: string[]; problem: string } {
+function useScene(robot: Description | null): { box: { current: HTMLDivElement | null }; drawn: { current: Drawn | null }; names: string[]; problem: string } {
   const box = useRef<HTMLDivElement>(null);
   const drawn = useRef<Drawn | null>(null);
   const [names, set_names] = useState<string[]>([]);
   const [problem, set_problem] = useState("");
   const colours = useStore(colours_changed);
   useEffect(() => {
-    if (!urdf) return;
+    if (!robot) return;
     let ended = false;
     void import("./scene").then(({ Scene }) => {
       if (ended || !box.current) return;
       const scene = new Scene(box.current);
-      const { axes } = scene.load(urdf);
+      const { axes } = scene.load(robot);
       drawn.current = { scene, names: axes.map(({ name }) => name), kinds: axes.map(({ jointType }) => jointType) };
       set_names(drawn.current.names);
       set_problem("");
@@ -121,9 +129,13 @@ function useScene(urdf: string | null): { box: { current: HTMLDivElement | null 
       drawn.current?.scene.end();
       drawn.current = null;
     };
-  }, [urdf]);
+  }, [robot]);
   useEffect(() => drawn.current?.scene.recolour(), [colours]);
   return { box, drawn, names, problem };
+}
+
+function has_zones({ zones = [], bodies = [], workspace = [] }: Description): boolean {
+  return zones.length + bodies.length + workspace.length > 0;
 }
 
 // Converts degrees and millimetres of the robot task to radians and metres of URDF.
@@ -143,11 +155,32 @@ export function Robot() {
   const scope = found && found.name;
   const modules = useRequest(board && found ? `${board.board} modules` : "", MODULES_MS,
     () => get<{ modules: Module[] }>(board_path(board!.board, "/modules")));
-  const { box, drawn, names, problem } = useScene(robot?.urdf ?? null);
-  const state = useRobotState(board?.board ?? "", found, ({ joint }) => {
+  const { box, drawn, names, problem } = useScene(robot);
+  const [fastest, set_fastest] = useState(0);  // the end of the scale, which only grows while the robot moves
+  const ahead = useRef<{ ways: Way[]; fastest: number }>({ ways: [], fastest: 0 });
+  // The arm may be loaded later than the first of them arrive.
+  const draw_ways = () => {
     const now = drawn.current;
-    if (now) now.scene.move(in_urdf(joint.length ? joint : [], now.kinds));
+    if (!now || now.ahead === ahead.current) return;
+    now.ahead = ahead.current;
+    now.scene.set_ways(now.ahead.ways, now.ahead.fastest);
+  };
+  const state = useRobotState(board?.board ?? "", found, ({ joint, position, tool }) => {
+    const now = drawn.current;
+    draw_ways();
+    if (now) now.scene.move(in_urdf(joint.length ? joint : [], now.kinds), position, tool);
   });
+  useWays(board?.board ?? "", found, (ways) => {
+    const most = ways.length ? end_of_scale(Math.max(...ways.flatMap(({ speeds }) => speeds))) : 0;
+    ahead.current = { ways, fastest: ways.length ? Math.max(ahead.current.fastest, most) : 0 };
+    set_fastest(ahead.current.fastest);
+    draw_ways();
+  });
+  const [zones, set_zones] = useState(true);
+  const show_zones = (shown: boolean) => {
+    set_zones(shown);
+    drawn.current?.scene.show_zones(shown);
+  };
   const down = why_down(board?.alive ?? true, found, modules.value?.modules ?? null);
   if (!board) return <NoBoard purpose={PURPOSE} />;
   if (!value) return error ? <p class="bad">{error}</p> : <Waiting />;
@@ -176,7 +209,10 @@ export function Robot() {
               <button type="button" aria-label="Zoom in" onClick={() => drawn.current?.scene.zoom(0.8)}>+</button>
               <button type="button" aria-label="Zoom out" onClick={() => drawn.current?.scene.zoom(1.25)}>{"\u2212"}</button>
               <button type="button" onClick={() => drawn.current?.scene.clear_path()}>Clear path</button>
+              {has_zones(robot) && <button type="button" aria-pressed={zones} onClick={() => show_zones(!zones)}>Zones</button>}
             </div>
+            {fastest > 0 && <p class="speeds">Planned path: 0 <span class="scale" style={{ background: SCALE_STYLE }} /> {fastest} mm/s</p>}
+            {robot.problem && <p class="warn">Zones are not shown: {robot.problem}</p>}
           </section>
         ) : (
           <p class="panel warn">{value.described ? "The arm's description (property urdf of its module) cannot be read, so only numbers are shown." : "This server does not provide the arm's description, so only numbers are shown."}</p>)}

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arm in 3-D: floor, light, camera, the path of the tool (on the workpiece, if axes move that). It is drawn only after a change.
+// The arm in 3-D: floor, light, camera, zones, and the path of the tool that it has taken and will take (on the workpiece, if
+// axes move that). It is drawn only after a change.
 
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { Robot } from "../../api/types";
 import { colour } from "../../shell/theme";
+import { Ahead } from "./ahead";
 import { arm_of, type Arm } from "./arm";
+import type { Way } from "./state";
+import { Zones } from "./zones";
 
 const PATH_POINTS = 3000;
 const LINKS = "#5b9bd9";  // visible on a light and a dark background
@@ -22,6 +27,8 @@ export class Scene {
   private readonly hubs = new THREE.MeshStandardMaterial({ roughness: 0.6, metalness: 0.2 });
   private readonly points = new Float32Array(PATH_POINTS * 3);
   private readonly path: THREE.Line;
+  private readonly ahead = new Ahead();
+  private zones: Zones | null = null;
   private grid: THREE.GridHelper | null = null;
   private arm: Arm | null = null;
   private used = 0;
@@ -48,26 +55,45 @@ export class Scene {
     this.watch.observe(box);
   }
 
-  load(urdf: string): Arm {
+  load(robot: Robot): Arm {
     if (this.arm) this.scene.remove(this.arm.robot);
-    this.arm = arm_of(urdf, this.links, this.hubs);
+    this.arm = arm_of(robot.urdf, this.links, this.hubs);
+    this.zones = new Zones(this.arm, robot);
     this.scene.add(this.arm.robot);
-    this.arm.base.add(this.path);
+    this.arm.base.add(this.path, this.ahead.group);
     this.clear_path();
     this.recolour();
     this.set_view("Corner");
     return this.arm;
   }
 
-  // `values` are rad and m, in the order of the axes. Each call extends the path of the tool.
-  move(values: number[]): void {
+  // `values` are rad and m, in the order of the axes; `tip` is that of the held tool as commanded, mm. Each call extends the
+  // path of the tool.
+  move(values: number[], tip: number[], tool: number): void {
     if (!this.arm) return;
     this.arm.axes.forEach((joint, i) => { if (Number.isFinite(values[i])) joint.setJointValue(values[i]); });
     this.arm.robot.updateMatrixWorld(true);
-    const at = this.arm.base.worldToLocal(this.arm.tool.getWorldPosition(new THREE.Vector3()));
+    const at = tip.length === 3 && tip.every(Number.isFinite) ? new THREE.Vector3(...tip).divideScalar(1000)
+      : this.arm.base.worldToLocal(this.arm.tool.getWorldPosition(new THREE.Vector3()));
+    this.zones?.hold(tool);
+    this.ahead.move(at);
     const last = this.used > 0 ? new THREE.Vector3().fromArray(this.points, (this.used - 1) * 3) : null;
     this.moved = true;
     if (!last || last.distanceTo(at) > this.arm.size * 5e-4) this.add_point(at);
+    this.draw();
+  }
+
+  // `fastest`: the end of the scale of colours, mm/s.
+  set_ways(ways: Way[], fastest: number): void {
+    this.ahead.set(ways, fastest);
+    if (ways.length === 0) this.ahead.move(new THREE.Vector3());
+    this.renderer.domElement.dataset.ways = String(ways.length);
+    this.draw();
+  }
+
+  show_zones(shown: boolean): void {
+    this.zones?.show(shown);
+    this.renderer.domElement.dataset.zones = String(shown);
     this.draw();
   }
 
@@ -96,6 +122,7 @@ export class Scene {
     this.scene.background = new THREE.Color(colour("panel"));
     this.links.color.set(LINKS);
     this.hubs.color.set(HUBS);
+    this.zones?.recolour();
     (this.path.material as THREE.LineBasicMaterial).color.set(colour("c1"));
     if (this.grid) this.scene.remove(this.grid);
     this.grid = new THREE.GridHelper((this.arm?.size ?? 1) * 3, 24, colour("quiet"), colour("line"));
@@ -108,6 +135,7 @@ export class Scene {
     cancelAnimationFrame(this.requested);
     this.watch.disconnect();
     this.controls.dispose();
+    this.ahead.dispose();
     this.renderer.dispose();
     this.renderer.domElement.remove();
   }

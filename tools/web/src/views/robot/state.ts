@@ -5,9 +5,10 @@ import { useEffect, useState } from "preact/hooks";
 import { decode } from "../../api/decode";
 import { stream } from "../../api/stream";
 import type { Form, Variable } from "../../api/types";
-import { error_text, GROUP_STATES, JOB_STATES } from "./names";
+import { error_text, GROUP_STATES, JOB_STATES, name_of_error } from "./names";
 
 const RATE_HZ = 25;
+const WAYS_HZ = 10;
 
 export interface RobotState {
   joint: number[];
@@ -20,6 +21,8 @@ export interface RobotState {
   remaining_s: number;
   group: string;
   error: string;  // as text; empty: none
+  error_name: string;  // its name in the .glb file; empty: none
+  resumable: boolean;  // SVC_JB_RESUME can continue the job
   job: string;
   job_line: number;
   job_called: string;  // the job that this line belongs to: the job itself, or one that it called
@@ -30,21 +33,29 @@ export interface RobotState {
   automatic: boolean;
   may_move: boolean;  // operating mode and enabling device allow it
   waits_for: string;  // the robot that has to leave its way; empty: none
+  tool: number;  // held; 0: none
   acknowledged: number;  // the number of the service that was accepted last
+}
+
+// A planned motion: where the tool will go, in the order of time.
+export interface Way {
+  places: number[][];  // mm
+  speeds: number[];  // mm/s
 }
 
 export interface Scope {
   name: string;  // namespace of a robot: PLC_ROBOT of PLC_ROBOT::ROBOT_ARM
   modules: string[];  // that write its variables, if known
   shares: boolean;  // it has a variable ROBOT_SPACE: the space that it shares with other robots
+  tells_ways: boolean;  // it has a variable ROBOT_PATH: the motions that are planned
 }
 
-// From the variables called ROBOT_ARM and ROBOT_SPACE.
+// From the variables called ROBOT_ARM, ROBOT_SPACE and ROBOT_PATH.
 export function scopes_of(variables: Variable[]): Scope[] {
   const shared = new Set(variables.map(({ name }) => name));
   return variables.filter(({ name, form }) => /(^|::)ROBOT_ARM$/.test(name) && form.kind === "struct")
     .map(({ name, writers }) => ({ name: name.replace(/(::)?ROBOT_ARM$/, ""), modules: writers ?? [],
-      shares: shared.has(name.replace(/ROBOT_ARM$/, "ROBOT_SPACE")) }));
+      shares: shared.has(name.replace(/ROBOT_ARM$/, "ROBOT_SPACE")), tells_ways: shared.has(name.replace(/ROBOT_ARM$/, "ROBOT_PATH")) }));
 }
 
 function name_of(list: string[], state: unknown): string {
@@ -57,9 +68,11 @@ function state_of(values: Record<string, any>, errors: Record<string, number> | 
     joint: arm.joint ?? [], command: arm.command ?? [], speed: arm.speed ?? [], position: arm.position ?? [],
     orientation: arm.orientation ?? [], tool_speed: arm.tool_speed ?? NaN, override_now: arm.override_now ?? NaN, remaining_s: arm.to_go ?? NaN,
     group: name_of(GROUP_STATES, module.eState), error: module.nError ? error_text(module.nError, errors) : "",
+    error_name: module.nError ? name_of_error(module.nError, errors) : "", resumable: !!job.bResume,
     job: job.name ?? "", job_line: job.nLine ?? 0,
     job_called: job.called || job.name || "", job_state: name_of(JOB_STATES, job.eState), job_message: job.cMessage ?? "",
     override_set: values.override ?? NaN, hold: !!values.hold, acknowledged: module.nAcknowledge ?? 0,
+    tool: arm.nTool ?? 0,
     waits_for: space.cWaitsFor ?? "", automatic: arm.eMode === 1, may_move: arm.bMayMove !== 0,
   };
 }
@@ -97,4 +110,29 @@ export function useRobotState(board: string, robot: Scope | null, each: (state: 
     });
   }, [board, scope, shares]);
   return state;
+}
+
+function ways_of(motions: any[]): Way[] {
+  return motions.map(({ nPlaces, place, speed }) => ({
+    places: Array.from({ length: nPlaces }, (_, i) => place.slice(3 * i, 3 * i + 3)), speeds: speed.slice(0, nPlaces),
+  })).filter(({ places }) => places.length > 0);
+}
+
+// `each` is called after every change.
+export function useWays(board: string, robot: Scope | null, each: (ways: Way[]) => void): void {
+  const scope = robot?.tells_ways ? robot.name : null;
+  useEffect(() => {
+    if (scope === null || !board) return;
+    let last = "";
+    return stream.subscribe({
+      board, names: [`${scope ? `${scope}::` : ""}ROBOT_PATH`], rate_hz: WAYS_HZ, binary: true,
+      frame: (frame, of) => {
+        const { motion } = decode(frame.view, of.variables[0].offset, of.variables[0].form) as { motion: any[] };
+        const ways = ways_of(motion);
+        const now = JSON.stringify(ways);
+        if (now !== last) each(ways);
+        last = now;
+      },
+    });
+  }, [board, scope]);
 }
