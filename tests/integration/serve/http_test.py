@@ -5,6 +5,7 @@
 import http.client
 import json
 import pathlib
+import shutil
 import signal
 import socket
 import ssl
@@ -15,6 +16,7 @@ import harness
 from harness import TOKEN, wait_for
 
 API = "/api/v1"
+SOURCE = pathlib.Path(__file__).resolve().parents[3]
 
 
 def listens_on(port):
@@ -332,8 +334,51 @@ def test_shows_the_arms_of_a_board(setting):
     setting.start_node("config", setting.folder / "module.xml")
     server = setting.start_server()
     answer = server.get(f"{API}/boards/{setting.node}/robots").json()
-    assert answer == {"board": setting.node, "robots": [{"module": "modify", "urdf": "<robot name='arm'/>", "frames": []}]}, answer
+    (robot,) = answer["robots"]
+    assert (robot["module"], robot["urdf"], robot["frames"]) == ("modify", "<robot name='arm'/>", []), answer
+    assert robot["zones"] == robot["bodies"] == robot["workspace"] == [] and "arm.urdf" in robot["problem"], answer
     assert server.get(f"{API}/boards/missing/robots").status == 404
+
+
+# Frames are resolved: the pallet is turned by 90 degrees about z.
+ZONES = """FRAME pallet = POSE 400 200 50 RPY 0 0 90
+KEEPOUT table = BOX -800 -800 -60 800 800 -10
+KEEPOUT post = CYLINDER 0 700 0 0 700 900 RADIUS 60
+KEEPOUT clamp = BOX 0 0 0 80 40 60 IN pallet
+KEEPOUT lamp = BALL 500 0 900 RADIUS 100
+TOOL gripper = POSE 0 0 120 RPY 0 0 0
+BODY gripper = BOX -60 -30 0 60 30 90
+"""
+
+
+def test_shows_the_zones_of_a_robot(setting):
+    shutil.copy(SOURCE / "examples/robot_cell/robot.urdf", setting.folder / "arm.urdf")
+    jobs = setting.folder / "zones.job"
+    jobs.write_text(ZONES)
+    properties = {"urdf": "arm.urdf", "jobs": "zones.job", "workspace": "-900 -900 0 900 900 1500"}
+    (setting.folder / "module.xml").write_text(
+        "<root><module><filename>./modify.so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>"
+        "<period>1000000</period><priority>1</priority>"
+        "<property>" + "".join(f"<value name='{name}'>{value}</value>" for name, value in properties.items())
+        + "</property></module></root>")
+    setting.start_node("config", setting.folder / "module.xml")
+    server = setting.start_server()
+    robot = lambda: server.get(f"{API}/boards/{setting.node}/robots").json()["robots"][0]
+    found = robot()
+    near = lambda one, kind, size, position, orientation: one["kind"] == kind and all(
+        abs(a - b) < 1e-6 for a, b in zip(one["size"] + one["position"] + one["orientation"], size + position + orientation))
+    zones = {one["name"]: one for one in found["zones"]}
+    assert sorted(zones) == ["clamp", "lamp", "post", "table"], found
+    assert near(zones["table"], "box", [1600, 1600, 50], [0, 0, -35], [0, 0, 0]), found
+    assert near(zones["post"], "cylinder", [120, 120, 900], [0, 700, 450], [0, 0, 0]), found
+    assert near(zones["clamp"], "box", [80, 40, 60], [380, 240, 80], [0, 0, 90]), found
+    assert near(zones["lamp"], "ball", [200, 200, 200], [500, 0, 900], [0, 0, 0]), found
+    (body,) = found["bodies"]
+    assert (body["name"], body["tool"]) == ("gripper", 1) and near(body, "box", [120, 60, 90], [0, 0, 45], [0, 0, 0]), found
+    assert found["workspace"] == [-900, -900, 0, 900, 900, 1500] and "problem" not in found, found
+    jobs.write_text(ZONES + "pallet = pallet : POSE 1 0 0\n")
+    found = robot()
+    assert found["zones"] == [] and "'clamp' is in frame 'pallet', which jobs compute" in found["problem"], found
 
 
 def test_a_scope_needs_what_it_can_read(setting):

@@ -284,6 +284,16 @@ await browser.run({
       await sees(page, "mm/s");
       await sees(page, "cell_arm");
       await is_drawn(page);
+      const drawn = (what, value) => page.waitForFunction((name, wanted) => {
+        const canvas = document.querySelector(".arm canvas");
+        return !canvas || wanted.includes(canvas.dataset[name]);  // without WebGL
+      }, {}, what, value);
+      await drawn("ways", ["1", "2", "3"]);
+      await sees(page, "Planned path: 0");
+      await press(page, "Zones");
+      await drawn("zones", ["false"]);
+      await press(page, "Zones");
+      await drawn("zones", ["true"]);
       if (screen === "wide") await new Promise((done) => setTimeout(done, 4000));  // so that the picture shows the path of the tool
       await browser.check_view(page, `robot-${screen}`);
       await page.close();

@@ -19,6 +19,8 @@ def copy_cell(options, folder):
     copy_configuration(str(options.cell), str(options.io_module), folder)
     station = pathlib.Path(folder) / "ioconfig.xml"
     station.write_text(station.read_text().replace('timeout="100ms"', 'timeout="2s"'))
+    points = pathlib.Path(folder) / "points.job"
+    points.write_text(points.read_text() + "KEEPOUT post = CYLINDER -700 700 0 -700 700 900 RADIUS 60\n")  # far from its motions
 
 
 class Cell(PageServer):

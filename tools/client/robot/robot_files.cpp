@@ -144,7 +144,10 @@ std::vector<RobotFiles> robot_files_of(const config::Config& config) {
   std::vector<RobotFiles> out;
   for (const config::Module& module : config.modules) {
     if (property(module, "urdf") != nullptr || property(module, "jobs") != nullptr) {
-      out.push_back({module.name, files_of(config, module)});
+      robot::Settings settings;
+      static_cast<void>(robot::take_properties(text_of(module), settings));
+      settings.workspace.resize(settings.workspace.size() == 6 ? 6 : 0);
+      out.push_back({module.name, files_of(config, module), settings.workspace});
     }
   }
   return out;

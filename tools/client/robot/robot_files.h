@@ -19,6 +19,7 @@ std::vector<base::Diagnostic> check_robot_files(const config::Config& config, co
 struct RobotFiles {
   std::string module;
   robot::FileNames names;
+  std::vector<double> workspace;  // the property, as Settings::workspace; empty: none, or a wrong one
 };
 std::vector<RobotFiles> robot_files_of(const config::Config& config);
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers about the robot arms of a board: the URDF files of its robot modules.
+// Answers about the robot arms of a board: the URDF files of its robot modules, and what is around the arms.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "config/xml/plant_reader.h"
 #include "core/base/read_file.h"
 #include "tools/client/config/checked_config.h"
-#include "tools/client/robot/work_frames.h"
+#include "tools/client/robot/robot_scene.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/boards/board.h"
 
@@ -26,6 +27,44 @@ bool runs_in(const tools::RunView& run, const std::string& name) {
     }
   }
   return false;
+}
+
+base::Json list_of(const auto& numbers) {
+  base::Json list = base::Json::array();
+  for (const double number : numbers) {
+    list.push_back(number);
+  }
+  return list;
+}
+
+base::Json list_of_bodies(const std::vector<robot::ListedBody>& bodies) {
+  base::Json list = base::Json::array();
+  for (const robot::ListedBody& body : bodies) {
+    base::Json one = base::Json::object();
+    one["name"] = body.name;
+    if (body.tool > 0) {
+      one["tool"] = body.tool;
+    }
+    one["kind"] = body.kind;
+    one["size"] = list_of(body.size);
+    one["position"] = list_of(body.position);
+    one["orientation"] = list_of(body.orientation);
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+void add_scene(base::Json& robot, const tools::RobotScene& scene) {
+  robot["frames"] = base::Json::array();
+  for (const std::string& frame : scene.bodies.frames) {
+    robot["frames"].push_back(frame);
+  }
+  robot["zones"] = list_of_bodies(scene.bodies.zones);
+  robot["bodies"] = list_of_bodies(scene.bodies.tools);
+  robot["workspace"] = list_of(scene.workspace);
+  if (!scene.bodies.problem.empty()) {
+    robot["problem"] = scene.bodies.problem;
+  }
 }
 
 // Files of a module are relative to the folder of its configuration.
@@ -44,10 +83,7 @@ void add_robots(base::Json& robots, const config::Config& config, const tools::R
     base::Json one = base::Json::object();
     one["module"] = module.name;
     one["urdf"] = std::move(text).value();
-    one["frames"] = base::Json::array();
-    for (const std::string& frame : tools::work_frames_of(config, module.name)) {
-      one["frames"].push_back(frame);
-    }
+    add_scene(one, tools::robot_scene_of(config, module.name));
     robots.push_back(std::move(one));
   }
 }
