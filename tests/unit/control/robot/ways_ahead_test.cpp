@@ -228,6 +228,11 @@ TEST_F(Ways_ahead, Are_gone_after_a_stop_and_at_the_end) {
     cell.step();
     EXPECT_FALSE(cell.out.ways_changed);
   }
+  cell.ask(Service::JobStart);
+  ASSERT_TRUE(cell.until([&] { return cell.out.ways[0] != nullptr; }));
+  cell.in.emergency = true;
+  ASSERT_TRUE(cell.until([&] { return cell.out.ways_changed && cell.out.ways[0] == nullptr; }));
+  EXPECT_TRUE(cell.out.state == GroupState::ErrorStop || cell.out.state == GroupState::Stopping);
 }
 
 }  // namespace
