@@ -12,7 +12,7 @@ ToolWay* WaysAhead::for_plan(const PlanningDesk& desk, const ToolWay* taken) noe
     return std::any_of(path.segments.begin(), path.segments.begin() + path.count,
                        [way](const Segment& segment) { return segment.way_ahead == way; });
   };
-  const auto free = std::find_if(ways_.begin(), ways_.end(), [&](const ToolWay& way) {
+  auto* const free = std::find_if(ways_.begin(), ways_.end(), [&](const ToolWay& way) {
     return &way != taken && !desk.uses(&way) && !leads(robot_.follower.pieces(), &way) &&
            !leads(robot_.follower.kept_path().pieces, &way) && !leads(*shelf_, &way);
   });
@@ -21,7 +21,7 @@ ToolWay* WaysAhead::for_plan(const PlanningDesk& desk, const ToolWay* taken) noe
   }
   made_ = made_ == UINT32_MAX ? 1 : made_ + 1;
   free->number = made_;
-  return &*free;
+  return free;
 }
 
 void WaysAhead::report(bool known, Outputs& out) noexcept {

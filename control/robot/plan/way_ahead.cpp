@@ -43,8 +43,8 @@ class Thinning {
     std::array<Worst, kWayPlaces> worst{look(0, kTimes)};  // after each chosen one
     std::size_t count = 2;
     for (; count < most; ++count) {
-      const auto end = worst.begin() + static_cast<std::ptrdiff_t>(count) - 1;
-      const auto split = std::max_element(worst.begin(), end, [](auto& a, auto& b) { return a.misses < b.misses; });
+      auto* const end = worst.begin() + static_cast<std::ptrdiff_t>(count) - 1;
+      auto* const split = std::max_element(worst.begin(), end, [](auto& a, auto& b) { return a.misses < b.misses; });
       if (split->misses < kEnough) {
         break;
       }
