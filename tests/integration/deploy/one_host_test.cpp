@@ -2,6 +2,7 @@
 // Deployments to two agents on one host, and the ways they end.
 
 #include <cstdlib>
+#include <fstream>
 
 #include "agents_fixture.h"
 
@@ -75,8 +76,14 @@ TEST_F(Deploying, A_bundle_is_deployed_where_its_sources_are_not) {
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(done.json()["deployment"], id);
   EXPECT_TRUE(runs("a", id) && runs("b", id));
-  const std::string damaged = "printf X | dd of=" + path("p.bundle") + " bs=1 seek=500 conv=notrunc 2>/dev/null";
-  ASSERT_EQ(std::system(damaged.c_str()), 0);
+  std::fstream bundle(path("p.bundle"), std::ios::in | std::ios::out | std::ios::binary);
+  constexpr std::streamoff kDamaged = 500;
+  bundle.seekg(kDamaged);
+  const int byte = bundle.get();
+  bundle.seekp(kDamaged);
+  bundle.put(static_cast<char>(byte ^ 1));
+  bundle.close();
+  ASSERT_TRUE(bundle.good());
   const Outcome refused = deploy(path("p.bundle"));
   EXPECT_EQ(refused.code, 1);
   EXPECT_THAT(refused.err, HasSubstr("p.bundle: "));

@@ -228,7 +228,10 @@ TEST_F(RemoteStandby, What_it_computes_is_shown_by_the_board_that_leads) {
   EXPECT_TRUE(wait_until([&] { return lines(watch) > before + 5; })) << watch.out() << watch.err();
   EXPECT_GT(cycle(), 0U);
   Program& again = run_board(node());
-  ASSERT_TRUE(wait_until([&] { return run() != nullptr && run()->tick.load() > 2000; })) << again.err();
+  ASSERT_TRUE(wait_until([&] {
+    const auto* block = run();
+    return block != nullptr && block->tick.load() > 2000;
+  })) << again.err();
   EXPECT_TRUE(shown_by(backup()));
   EXPECT_FALSE(shown_by(node())) << "the lead is not taken back";
   watch.signal(SIGINT);

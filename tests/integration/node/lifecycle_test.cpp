@@ -82,7 +82,10 @@ TEST_P(Signals, At_any_instant_end_the_node) {
     Program& sut = start({{.file = "counter.so", .name = "counter"},
                           {.file = "process.exe", .name = "process", .type = "process", .priority = 2}});
     // Before main() has begun, a signal does what it always does.
-    ASSERT_TRUE(wait_until([&] { return run() != nullptr && run()->node_pid.load() == sut.pid(); }));
+    ASSERT_TRUE(wait_until([&] {
+      const auto* block = run();
+      return block != nullptr && block->node_pid.load() == sut.pid();
+    }));
     std::this_thread::sleep_for(std::chrono::microseconds(i * 3000));
     sut.signal(number());
     EXPECT_EQ(sut.wait(), code()) << "signal " << i;
