@@ -3,9 +3,18 @@
 
 namespace indurop::robot {
 
+namespace {
+
+// Returns whether the next segment may begin without a stop.
+bool goes_over(const PathPieces& path) noexcept {
+  return path.count > 0 && path.segments[at(path.count - 1)].zone > 0;
+}
+
+}  // namespace
+
 void Plans::ask(const PlanRequest& request) noexcept {
   PlanRequest asked = request;
-  asked.follows = asked.follows && robot_.follower.goes_over() && !unconnected_;
+  asked.follows = asked.follows && goes_over(robot_.follower.pieces()) && !unconnected_;
   asked.reserve = correction_.shifts() ? PathCorrection::kReserve : 0;
   asked.cells = request.unreserved ? nullptr : space_.cells_for_plan(desk_);
   asked.way = ways_.for_plan(desk_);

@@ -18,6 +18,7 @@ struct PathPieces {
   std::array<Segment, kMaxSegments> segments;
   std::array<Blend, kMaxSegments> blends;  // into each of them, if it is still possible when it is near
   int count = 0;
+  [[nodiscard]] bool full() const noexcept { return count == kMaxSegments; }
   Blend blend;            // between the first two segments; zone 0: none
   bool in_blend = false;  // the present piece is the blend, not the first segment
 
@@ -46,7 +47,6 @@ class FollowedPath final : public PathAhead {
   explicit FollowedPath(const Places& places) noexcept : places_(places) {}
 
   [[nodiscard]] bool empty() const noexcept { return pieces_.count == 0; }
-  [[nodiscard]] bool full() const noexcept { return pieces_.count == PathPieces::kMaxSegments; }
   [[nodiscard]] const PathPieces& pieces() const noexcept { return pieces_; }
   void clear() noexcept;
   // The path continues with this segment after its last one.

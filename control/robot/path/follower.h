@@ -21,7 +21,7 @@ class Follower {
   // Rests at these joint positions, with nothing to do.
   void reset(const Joints& q) noexcept;
   // Returns whether another path can be added; it has to begin at end().
-  [[nodiscard]] bool has_room() const noexcept { return !path_.full() && !stopping(); }
+  [[nodiscard]] bool has_room() const noexcept { return !path_.pieces().full() && !stopping(); }
   [[nodiscard]] const Joints& end() const noexcept { return idle() ? q_ : path_.last().to; }
   // `blend`: from the previous segment into this one, if they may be passed without a stop.
   void add(const Segment& segment, const Blend& blend = {}) noexcept;
@@ -33,9 +33,6 @@ class Follower {
   // Replaces all remaining motion by a joint motion, from any motion of the joints; not while it is stopping. Errors:
   // JointLimit, Singular, Workspace, Speed, Collision; then nothing has changed.
   Fault redirect(const Segment& target) noexcept;
-
-  // Returns whether the next segment may begin without a stop.
-  [[nodiscard]] bool goes_over() const noexcept { return !idle() && path_.last().zone > 0; }
 
   // Keeps the rest of the path when it comes to rest or is reset, so that it can be resumed there.
   void keep_path() noexcept;
