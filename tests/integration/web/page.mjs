@@ -80,7 +80,7 @@ await browser.run({
   async "Variables are found, set within their range, forced and released"() {
     const page = await browser.open("variables");
     await fill(page, "Search variables", "override");
-    await sees(page, "3 of ");
+    await sees(page, " of ");
     await page.locator("::-p-xpath(//*[@role='row'][contains(., 'ROBOT_OVERRIDE')])").click();
     await sees(page, "how fast the robot follows its path");
     await sees(page, "0 to 100 %");
