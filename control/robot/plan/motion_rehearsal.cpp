@@ -17,7 +17,7 @@ constexpr int kShort = 2000;                // instants of a motion that is rehe
 
 bool MotionRehearsal::is_fine() const noexcept {
   return draft_.segment.chain != nullptr || draft_.segment.joint_path != nullptr || draft_.segment.wave.on() ||
-         draft_.work.settles_slowly() || findings_.nearly_singular();
+         draft_.work.settles_slowly() || findings_.nearly_singular() || findings_.turns_at_end();
 }
 
 // s between two instants, at most.

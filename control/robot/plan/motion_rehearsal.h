@@ -17,7 +17,8 @@ class MotionRehearsal {
       : places_(places), draft_(draft), findings_(findings), rehearsal_(places, draft.joints) {}
 
   // Returns whether instants have to be close to each other: for chains, whose corners may be narrow, in waves, near
-  // singular positions, and where an orientation is missed. Real-time safe, like all functions of this class.
+  // singular positions, where an axis turns back near the end of its range, and where an orientation is missed.
+  // Real-time safe, like all functions of this class.
   [[nodiscard]] bool is_fine() const noexcept;
   // Begins with the draft's path, followed by its timing. `narrow_first`: a long motion begins where it is narrow.
   void begin_timing(bool narrow_first) noexcept;

@@ -192,8 +192,11 @@ void MotionTiming::end_timing(double slower, bool sure) noexcept {
   }
 }
 
-bool MotionTiming::is_hopeless() const noexcept {
-  return unseen_ || (draft_.work.may_refuse() && crawls());
+Fault MotionTiming::fault() const noexcept {
+  if (const int axis = rehearsal_.result().restless_axis(); unseen_ && axis >= 0) {
+    return {ErrorCode::JointLimit, axis + 1};
+  }
+  return {unseen_ || (draft_.work.may_refuse() && crawls()) ? ErrorCode::Singular : ErrorCode::Ok};
 }
 
 Profile MotionTiming::profile() const noexcept {

@@ -21,8 +21,9 @@ class MotionTiming {
   void work(int& places) noexcept;
   // Then the draft's segment is complete, or has to be rejected.
   [[nodiscard]] bool done() const noexcept { return stage_ == Stage::Done; }
-  // Returns whether the motion cannot be followed, or takes unacceptably longer than the tool's speed would allow.
-  [[nodiscard]] bool is_hopeless() const noexcept;
+  // Why the motion cannot be followed, or takes unacceptably longer than the tool's speed would allow: Singular, or
+  // JointLimit if an axis could not rest before the end of its range.
+  [[nodiscard]] Fault fault() const noexcept;
 
  private:
   enum class Stage { Search, RehearseTiming, RehearseProfile, Done };

@@ -18,6 +18,7 @@ void PathFindings::begin() noexcept {
   noted_ = 0;
   least_volume_ = std::abs(places_.arm().volume(s.from));
   slowest_ = HUGE_VAL;
+  turns_at_end_ = false;
   narrow_.fill({0, s.from});
 }
 
@@ -76,6 +77,22 @@ void PathFindings::note_volume(double volume, double place, const Joints& q) noe
   if (std::abs(volume) < least_volume_) {
     least_volume_ = std::abs(volume);
     narrow_[0] = {place, q};
+  }
+}
+
+// An axis that turns with its whole acceleration goes at most a third of acceleration^3 / jerk^2 further if it has to
+// rest instead: the way in which it reduces that acceleration. Between two places it may turn somewhat later than here.
+void PathFindings::note_turn(const Joints* q) noexcept {
+  const JointLimits& joints = draft_.joints;
+  for (int i = 0; i < places_.arm().count(); ++i) {
+    const Axis& axis = places_.arm().axis(i);
+    const double bend = q[2][i] - 2 * q[1][i] + q[0][i];
+    if (axis.endless || (q[1][i] - q[0][i]) * (q[2][i] - q[1][i]) > 0) {
+      continue;
+    }
+    const double room = bend < 0 ? axis.upper - q[1][i] : q[1][i] - axis.lower;
+    const double most = std::pow(joints.acceleration[i], 3) / std::pow(joints.jerk[i], 2) / 3;
+    turns_at_end_ = turns_at_end_ || room < most + std::abs(bend);
   }
 }
 

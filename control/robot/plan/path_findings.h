@@ -41,6 +41,9 @@ class PathFindings {
   void note(const Rates& rates) noexcept;
   // Records how far the arm is from a singular position, where `volume` is 0.
   void note_volume(double volume, double place, const Joints& q) noexcept;
+  // Records whether an axis turns back so near to the end of its range that it may not be able to rest before it; `q`
+  // are its joints at three consecutive places.
+  void note_turn(const Joints* q) noexcept;
   // Reduces the draft's limits to what the noted rates leave for changes of speed.
   void leave_for_changes() noexcept;
 
@@ -49,6 +52,8 @@ class PathFindings {
   [[nodiscard]] std::span<const NarrowPlace> narrow() const noexcept { return narrow_; }
   // Returns whether the path comes near a singular position.
   [[nodiscard]] bool nearly_singular() const noexcept;
+  // Returns whether an axis turns back near the end of its range.
+  [[nodiscard]] bool turns_at_end() const noexcept { return turns_at_end_; }
 
  private:
   const Places& places_;
@@ -59,6 +64,7 @@ class PathFindings {
   double usual_volume_ = 0;  // maximum volume of this arm
   double least_volume_ = 0;  // on the path
   double slowest_ = HUGE_VAL;
+  bool turns_at_end_ = false;
   std::array<NarrowPlace, 2> narrow_;
 };
 

@@ -96,6 +96,9 @@ void PathSurvey::learn() noexcept {
     const Rates rates = rates_at(samples_.data(), count_, i, spacing);
     findings_.note(rates);
     findings_.bound(rates, spacing * i, spacing, samples_[static_cast<std::size_t>(i)]);
+    if (i > 0) {
+      findings_.note_turn(&samples_[static_cast<std::size_t>(i) - 1]);
+    }
   }
   closer_.choose(samples_.data(), volumes_.data(), count_, 0, spacing, 0);
 }

@@ -163,8 +163,8 @@ Fault Planner::begin_timing() noexcept {
 }
 
 Fault Planner::end_timing() noexcept {
-  if (timing_.is_hopeless()) {
-    return {ErrorCode::Singular};
+  if (const Fault fault = timing_.fault(); !fault.ok()) {
+    return fault;
   }
   begin_effort();
   return {};

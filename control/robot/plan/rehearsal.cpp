@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "control/robot/path/rates.h"
+#include "control/robot/plan/resting.h"
 
 namespace indurop::robot {
 
@@ -13,13 +14,16 @@ namespace {
 constexpr double kSure = 0.99;        // of the limits, margin for the motion between two instants
 constexpr int kFewestInstants = 300;  // instants: jerk of short motions peaks between the knots of their timing
 constexpr int kMaxInstants = 1 << 26;
-constexpr int kLong = 20000;         // instants; longer motions have calm stretches
-constexpr int kVeryLong = 1 << 20;   // instants
-constexpr int kFewSkipped = 16;      // instants
-constexpr int kMoreSkipped = 64;     // instants of long motions
-constexpr int kManySkipped = 1024;   // instants of very long ones
-constexpr double kQuiet = 0.5;       // factor of the last instant below which some may be skipped
-constexpr double kSuspicious = 1.1;  // factor of jerk above which a joint may step
+constexpr int kLong = 20000;            // instants; longer motions have calm stretches
+constexpr int kVeryLong = 1 << 20;      // instants
+constexpr int kFewSkipped = 16;         // instants
+constexpr int kMoreSkipped = 64;        // instants of long motions
+constexpr int kManySkipped = 1024;      // instants of very long ones
+constexpr double kQuiet = 0.5;          // factor of the last instant below which some may be skipped
+constexpr double kSuspicious = 1.1;     // factor of jerk above which a joint may step
+constexpr double kRoomForRest = 0.9;    // part of the room before the end of a range that a stop may use
+constexpr double kRounding = 5e-10;     // rad or m, half of what the last gate lets pass beyond that end
+constexpr double kSlowestForRest = 50;  // factor of slowness above which an axis is too near the end of its range
 
 }  // namespace
 
@@ -29,6 +33,7 @@ void Rehearsal::begin(const Joints& from, double duration, double step, bool tim
   next_ = 1;
   end_ = count_ + 3;
   worst_ = last_jerk_ = suspected_ = 0;
+  restless_ = -1;
   acceleration_share_ = timed ? TimingShares::kAcceleration : Shares::kBending;
   jerk_share_ = timed ? TimingShares::kJerk : Shares::kBendingJerk;
   pace_ = {};
@@ -69,16 +74,45 @@ bool Rehearsal::look(const Segment& segment, double place) noexcept {
     return true;
   }
   const auto& q = seen_;
-  const Joints first = ((q[0] - q[1]) / step_).cwiseAbs();
-  const Joints second = ((q[0] - 2 * q[1] + q[2]) / (step_ * step_)).cwiseAbs();
+  const Joints velocity = (q[0] - q[1]) / step_;
+  const Joints acceleration = (q[0] - 2 * q[1] + q[2]) / (step_ * step_);
+  const Joints first = velocity.cwiseAbs();
+  const Joints second = acceleration.cwiseAbs();
   const Joints third = ((q[0] - 3 * q[1] + 3 * q[2] - q[3]) / (step_ * step_ * step_)).cwiseAbs();
   last_jerk_ = std::cbrt(third.cwiseQuotient(jerk_share_ * joints_.jerk).maxCoeff());
   last_ =
       std::max({first.cwiseQuotient(joints_.velocity).maxCoeff(),
                 std::sqrt(second.cwiseQuotient(acceleration_share_ * joints_.acceleration).maxCoeff()), last_jerk_});
-  worst_ = std::max(worst_, last_);
+  if (last_ > worst_) {
+    worst_ = last_;
+    restless_ = -1;
+  }
+  check_rest(velocity + step_ / 2 * acceleration, acceleration);
   note(first, second);
   return true;
+}
+
+// An axis that is beyond the end of its range may return.
+void Rehearsal::check_rest(const Joints& velocity, const Joints& acceleration) noexcept {
+  for (int i = 0; i < places_.arm().count(); ++i) {
+    const Axis& axis = places_.arm().axis(i);
+    if (axis.endless) {
+      continue;
+    }
+    const LineLimits limits{joints_.velocity[i], joints_.acceleration[i], joints_.jerk[i]};
+    const double above = kRoomForRest * std::max(0.0, axis.upper - seen_[0][i]) + kRounding;
+    const double below = kRoomForRest * std::max(0.0, seen_[0][i] - axis.lower) + kRounding;
+    const double slower = std::max(slower_for_rest(above, velocity[i], acceleration[i], limits, kSlowestForRest),
+                                   slower_for_rest(below, -velocity[i], -acceleration[i], limits, kSlowestForRest));
+    if (slower <= 1) {
+      continue;
+    }
+    last_ = std::max(last_, kSure * slower);
+    if (last_ > worst_) {
+      worst_ = last_;
+      restless_ = i;
+    }
+  }
 }
 
 void Rehearsal::note(const Joints& first, const Joints& second) noexcept {

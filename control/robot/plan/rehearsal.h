@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps through a motion before it begins, from one instant to the next: by how much its joints exceed their shares
-// anywhere, and how much of the remaining limits changes of its pace may use.
+// anywhere, whether they could rest before the ends of their ranges, and how much of the remaining limits changes of
+// its pace may use.
 
 #pragma once
 
@@ -37,6 +38,9 @@ class Rehearsal {
   // Factor by which the duration has to grow, at least 1: for the last instant, and, when done, for the whole motion.
   [[nodiscard]] double last_factor() const noexcept;
   [[nodiscard]] double factor() const noexcept;
+  // Returns the axis that has to be slower than any other limit requires because it turns back just before the end of
+  // its range and could not rest there, from 0; -1: none.
+  [[nodiscard]] int restless_axis() const noexcept { return restless_; }
   // Returns whether the last instant is in another posture than the one before it: no slower motion mends that.
   [[nodiscard]] bool jumped() const noexcept;
   // Returns whether a joint steps near the last instant: between places that are as close as numbers can be, it changes
@@ -50,6 +54,7 @@ class Rehearsal {
 
  private:
   [[nodiscard]] bool calm(const Joints& far) const noexcept;
+  void check_rest(const Joints& velocity, const Joints& acceleration) noexcept;
   [[nodiscard]] bool steps_before(std::size_t instant, const Segment& segment, int& places) const noexcept;
   void note(const Joints& first, const Joints& second) noexcept;
 
@@ -61,6 +66,7 @@ class Rehearsal {
   double step_ = 0;
   double last_ = 0, worst_ = 0;
   double last_jerk_ = 0, suspected_ = 0;  // the part of it that jerk has, and the worst that steps() has checked
+  int restless_ = -1;
   double acceleration_share_ = 1, jerk_share_ = 1;
   PaceLimits pace_;
   TipSpeed tip_;
