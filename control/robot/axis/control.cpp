@@ -90,7 +90,7 @@ void AxisControl::take(int ticket, ErrorCode permit) noexcept {
 
 void AxisControl::order(int ticket, const Command& command) noexcept {
   using Handler = void (*)(AxisControl&, int, const Command&) noexcept;
-  static constexpr auto kServices = static_cast<std::size_t>(AxisService::TorqueControl) + 1;
+  static constexpr auto kServices = static_cast<std::size_t>(AxisService::FollowPath) + 1;
   // Handler of each service.
   static constexpr auto kBy = [] {
     using enum AxisService;
@@ -105,7 +105,7 @@ void AxisControl::order(int ticket, const Command& command) noexcept {
     set([](AxisControl& a, int t, const Command& c) noexcept { a.motions_.take(t, c); },
         {Home, Halt, MoveAbsolute, MoveRelative, MoveAdditive, MoveVelocity, MoveContinuousAbsolute,
          MoveContinuousRelative, GearIn, CamIn, GearInPos, Combine, PositionProfile, VelocityProfile,
-         AccelerationProfile, AxisService::TorqueControl});
+         AccelerationProfile, AxisService::TorqueControl, FollowPath});
     set([](AxisControl& a, int t, const Command& c) noexcept { a.motions_.take_stop(t, c); }, {Stop});
     set([](AxisControl& a, int t, const Command& c) noexcept { a.set_position(t, c); }, {SetPosition});
     set([](AxisControl& a, int t, const Command& c) noexcept { a.write_parameter(t, c); }, {WriteParameter});
@@ -212,7 +212,7 @@ AxisReport AxisControl::report() const noexcept {
   bounds().report(units(), report);
   report.velocity = state.velocity / unit();
   const AxisFollowing& following = parts().following;
-  report.phase = following.coupled() ? following.phase() / parts().row.axis(leaders()[0].axis).unit() : 0;
+  report.phase = leaders().empty() ? 0 : following.phase() / parts().row.axis(leaders()[0].axis).unit();
   return report;
 }
 

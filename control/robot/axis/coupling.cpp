@@ -28,8 +28,8 @@ double left(double limit, double used, double most) noexcept {
 
 }  // namespace
 
-// Tool paths, whose places are rounded further, lead no other axis. A motion computes its places from those where it
-// began, so that they are rounded as those of a turn at least.
+// A motion computes its places from those where it began, so that they are rounded as those of a turn at least. Places
+// of a tool on its path are rounded further.
 double CouplingLaw::rounding_at(double master, double phase) const noexcept {
   constexpr double kTurn = 2 * kPi;
   const double from = kTurn + std::abs(master) + std::abs(phase) + std::abs(master_zero);
@@ -42,7 +42,7 @@ double CouplingLaw::rounding_at(double master, double phase) const noexcept {
     const double slope = slave_scale / master_scale * cam.slope_at((there - master_zero) / master_scale);
     return kRounding * (std::abs(slope) * from + own + std::abs(slave_scale) * cam.size());
   }
-  return kRounding * (std::abs(ratio) * from + own);
+  return kRounding * (std::abs(ratio) * from + own) + std::abs(ratio) * master_rounding;
 }
 
 void AxisCoupling::engage(const CouplingLaw& law, const LineLimits& limits, const LineLimits& most,

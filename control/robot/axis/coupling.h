@@ -21,6 +21,7 @@ struct CouplingLaw {
   Approach approach;                       // if known(): how it reaches the ratio
   double master_zero = 0, slave_zero = 0;  // positions of the cam's zeros, or of both axes in gear
   double master_scale = 1, slave_scale = 1;
+  double master_rounding = 0;  // of the place of a tool on its path, m
   // Returns whether the law defines positions, not only the speed.
   [[nodiscard]] bool places() const noexcept { return cam.known() || approach.known(); }
   [[nodiscard]] double at(double master) const noexcept {

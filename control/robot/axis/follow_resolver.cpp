@@ -37,8 +37,12 @@ bool CommandResolver::follows_itself(const AxisFollow& way) const noexcept {
 
 ErrorCode CommandResolver::follow(const Command& command, const AxisOrder& order, AxisFollow& way) const noexcept {
   const AxisService service = axis_service_of(command);
+  if (service == AxisService::FollowPath) {
+    return of_tool(command, way);
+  }
+  const int first = parts_.row.first + 1;
   way.leading = service == AxisService::Combine ? 2 : 1;
-  way.leaders = {AxisLeader{command.option - 1}, AxisLeader{command.job - 1}};
+  way.leaders = {AxisLeader{command.option - first}, AxisLeader{command.job - first}};
   for (std::size_t i = 0; i < way.leading; ++i) {
     if (way.leaders[i].axis < 0 || at(way.leaders[i].axis) >= parts_.row.axes.size()) {
       return ErrorCode::Value;
@@ -60,6 +64,20 @@ ErrorCode CommandResolver::follow(const Command& command, const AxisOrder& order
     default:
       return ratios(command, way);
   }
+}
+
+// The axis moves by a part of the tool's way. What it missed before it is in step is not made up for.
+ErrorCode CommandResolver::of_tool(const Command& command, AxisFollow& way) const noexcept {
+  constexpr double kMillimetre = 0.001;
+  constexpr double kRounding = 5e-11;  // m
+  const double ratio = command.to[0] / command.to[1];
+  if (parts_.row.travel == nullptr || !(std::abs(ratio) <= kMostRatio)) {
+    return ErrorCode::Value;
+  }
+  way.leading = 0;
+  way.law.ratio = ratio * parts_.units.unit() / kMillimetre;
+  way.law.master_rounding = kRounding;
+  return parts_.row.travel->leads ? ErrorCode::Ok : ErrorCode::Master;
 }
 
 // With one master, the law has the ratio. With two, the axis follows the sum of their scaled motions.

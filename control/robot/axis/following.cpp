@@ -34,6 +34,10 @@ void AxisFollowing::release(AxisMotion& motion) noexcept {
 ErrorCode AxisFollowing::step(const AxisNeighbours& row, double seconds) noexcept {
   AxisCoupling::Master master;
   bool all_lead = true;
+  if (leading_ == 0) {
+    master = {row.travel->before, row.travel->now};
+    all_lead = row.travel->leads;
+  }
   for (const AxisLeader& leader : leaders()) {
     const LineState& before = row.gate(leader.axis).state();
     const AxisControl& axis = row.axis(leader.axis);

@@ -24,7 +24,7 @@ struct AxisLeader {
 struct AxisFollow {
   CouplingLaw law;
   std::array<AxisLeader, 2> leaders;
-  std::size_t leading = 1;
+  std::size_t leading = 1;  // 0: it follows the tool
 };
 
 class AxisFollowing {
@@ -60,6 +60,7 @@ class AxisFollowing {
   [[nodiscard]] bool synced() const noexcept { return coupling_.synced(); }
   [[nodiscard]] double phase() const noexcept { return coupling_.phase(); }
   [[nodiscard]] const LineState& state() const noexcept { return coupling_.state(); }
+  // Empty for an axis that follows the tool.
   [[nodiscard]] std::span<const AxisLeader> leaders() const noexcept {
     return {leaders_.data(), coupled_ ? leading_ : 0};
   }

@@ -34,6 +34,7 @@ class CommandResolver {
   [[nodiscard]] ErrorCode target(const Command& command, double from, AxisOrder& order) const noexcept;
   [[nodiscard]] ErrorCode check_profile(const Command& command) const noexcept;
   [[nodiscard]] bool follows_itself(const AxisFollow& way) const noexcept;
+  [[nodiscard]] ErrorCode of_tool(const Command& command, AxisFollow& way) const noexcept;
   [[nodiscard]] ErrorCode ratios(const Command& command, AxisFollow& way) const noexcept;
   [[nodiscard]] ErrorCode meeting(const Command& command, const AxisOrder& order, AxisFollow& way) const noexcept;
   [[nodiscard]] ErrorCode cam(const Command& command, const AxisControl& master, CouplingLaw& law) const noexcept;

@@ -23,10 +23,10 @@ inline bool goes_on_from(AxisService service) noexcept {
   return service == AxisService::MoveContinuousAbsolute || service == AxisService::MoveContinuousRelative;
 }
 
-// Returns whether it follows another axis.
+// Returns whether it follows another axis, or the tool.
 inline bool follows(AxisService service) noexcept {
   return service == AxisService::GearIn || service == AxisService::CamIn || service == AxisService::GearInPos ||
-         service == AxisService::Combine;
+         service == AxisService::Combine || service == AxisService::FollowPath;
 }
 
 // Returns whether it moves by a time table.

@@ -75,7 +75,7 @@ ErrorCode SuperimposedMotion::check_shift(const Command& command) const noexcept
     return ErrorCode::State;
   }
   const std::span<const AxisLeader> leaders = following.leaders();
-  const bool one_master = leaders.size() == 1 && command.option == leaders[0].axis + 1;
+  const bool one_master = leaders.size() == 1 && command.option == parts_.row.first + leaders[0].axis + 1;
   const bool sane = std::abs(command.to[0]) <= kMostShift && command.buffer == BufferMode::Aborting;
   return one_master && sane ? ErrorCode::Ok : ErrorCode::Value;
 }

@@ -227,6 +227,10 @@ ReadFiles read_files(const FileNames& names) {
       take_over(check_splines(read.book, inverse), read.errors);
     }
     read.kind = abilities(read.model->arm, inverse);
+    for (std::size_t i = 0; i < read.model->singles.size(); ++i) {
+      const std::string number = std::to_string(static_cast<std::size_t>(read.model->arm.count()) + i + 1);
+      read.kind += "; axis " + number + " (" + read.model->singles[i].name + ") belongs to no group";
+    }
   }
   return read;
 }
@@ -255,7 +259,7 @@ Findings check_module(FileNames names, const PropertyText& property) {
   names = names_of(settings);
   ReadFiles read = read_files(names);
   if (read.model) {
-    add(check_axes(settings, read.model->arm, read.model->dynamics.known()));
+    add(check_axes(settings, read.model->arm, read.model->dynamics.known(), read.model->singles.size()));
     take_over(check_room(read.model->arm, read.clearance, names.urdf), read.errors);
   }
   take_over(std::move(read.notes), read.errors);

@@ -97,10 +97,10 @@ Result<ArmModel, std::vector<base::Diagnostic>> UrdfReader::read() {
     error(0, "this is not the URDF of a robot: " + (said.empty() ? "it cannot be read" : said));
     return std::move(errors_);
   }
+  model_ = model;
   if (text_.find("<delta") != std::string::npos) {
     return read_delta(*model);
   }
-  model_ = model;
   chain_.push_back({model->getRoot(), {}, -1});
   take_chain(chain_to(tip_of(*model)));
   if (count_ == 0 || count_ > kAxes) {
@@ -113,6 +113,7 @@ Result<ArmModel, std::vector<base::Diagnostic>> UrdfReader::read() {
     begin_at_workpiece();
   }
   std::vector<LinkBody> bodies = shapes();
+  take_singles();
   if (!errors_.empty()) {
     return std::move(errors_);
   }
@@ -122,6 +123,8 @@ Result<ArmModel, std::vector<base::Diagnostic>> UrdfReader::read() {
     read.links.push_back(name);
   }
   read.notes = std::move(notes_);
+  read.singles = std::move(singles_);
+  read.single_velocity = single_velocity_;
   return read;
 }
 
@@ -199,6 +202,7 @@ Result<ArmModel, std::vector<base::Diagnostic>> UrdfReader::read_delta(const urd
     if (joint == nullptr || !is_axis(*joint) || slides(*joint)) {
       error(at, "<delta> names the joint '" + name + "', which does not turn or is not there");
     } else if (count_ < 4) {
+      joints_.push_back(joint);
       take_axis(*joint, {Vec3::UnitZ(), Vec3::Zero(), AxisKind::Turning, count_, 1});
     }
   }
@@ -208,6 +212,7 @@ Result<ArmModel, std::vector<base::Diagnostic>> UrdfReader::read_delta(const urd
   if (const std::size_t workpiece = text_.find("<workpiece"); workpiece != std::string::npos) {
     error(workpiece, "<workpiece>: a delta cannot follow a workpiece that axes move");
   }
+  take_singles();
   if (errors_.empty() && !delta.position(Vec3::Zero()).allFinite()) {
     error(at, "<delta>: with the arms level the rods do not meet; lower has to be longer");
   }
@@ -215,7 +220,8 @@ Result<ArmModel, std::vector<base::Diagnostic>> UrdfReader::read_delta(const urd
     return std::move(errors_);
   }
   note("torques are not known and have no limit: the arm is a delta");
-  return ArmModel{Arm(std::move(axes_), delta, count_), velocity_, {}, {}, {}, std::move(notes_)};
+  return ArmModel{Arm(std::move(axes_), delta, count_), velocity_, {}, {}, {}, std::move(notes_), std::move(singles_),
+                  single_velocity_};
 }
 
 // Returns an attribute of the element at `at`; empty if there is none of that name.

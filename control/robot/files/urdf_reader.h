@@ -42,6 +42,7 @@ class UrdfReader {
   void take_axis(const urdf::Joint& joint, const Link& link);
   void connect();
   void begin_at_workpiece();
+  void take_singles();
   void turn_workpiece(const urdf::LinkConstSharedPtr& workpiece);
   [[nodiscard]] Dynamics masses();
   [[nodiscard]] std::vector<LinkBody> shapes();
@@ -61,6 +62,8 @@ class UrdfReader {
   std::vector<urdf::JointConstSharedPtr> joints_;     // of `links_`
   std::vector<ChainLink> chain_;
   int world_joint_ = 0;
+  std::vector<Axis> singles_;
+  Joints single_velocity_ = Joints::Ones();
 };
 
 }  // namespace indurop::robot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All axes of the arm, with the gates after them, the cams and profiles that they follow, and the set points of the
+// All axes of the arm, or all single axes, with the gates after them, the cams and profiles that they follow, and the set points of the
 // last period. Knows nothing of the group.
 
 #pragma once
@@ -18,10 +18,13 @@ class AxisRow {
  public:
   // `parts` and `table` must outlive it.
   AxisRow(const GroupParts& parts, CommandTable& table) noexcept;
+  // The single axes, which belong to no group. They may follow the tool, whose `travel` must outlive it, too.
+  AxisRow(const GroupParts& parts, CommandTable& table, const ToolTravel& travel) noexcept;
   AxisRow(const AxisRow&) = delete;
   AxisRow& operator=(const AxisRow&) = delete;
 
   // All functions are real-time safe. An index counts from 0.
+  [[nodiscard]] int count() const noexcept { return count_; }
   [[nodiscard]] AxisControl& operator[](int i) noexcept { return axes_[at(i)]; }
   [[nodiscard]] const AxisControl& operator[](int i) const noexcept { return axes_[at(i)]; }
   [[nodiscard]] AxisControl* begin() noexcept { return axes_.data(); }
@@ -79,6 +82,8 @@ class AxisRow {
   }
 
  private:
+  AxisRow(const GroupParts& parts, const JointLimits& limits, std::size_t count) noexcept;
+  void set_up(const Settings& settings, const Axis& axis, CommandTable& table, AxisNeighbours row) noexcept;
   [[nodiscard]] bool is_behind(const AxisControl& a) const noexcept;
 
   std::array<AxisControl, kAxes> axes_;

@@ -7,6 +7,7 @@ void CommandDesk::serve(const Inputs& in, const ModeGuard& mode) noexcept {
   CommandTable& table = robot_.table;
   table.read(in.commands, in.requests_known);
   robot_.axes.set_profiles(in.profiles);  // those of waiting commands are still in it
+  robot_.singles.set_profiles(in.profiles);
   services_.retry();
   for (int ticket = table.take(); ticket != CommandTable::kNone; ticket = table.take()) {
     const int axis = table.command(ticket).axis;
@@ -14,6 +15,8 @@ void CommandDesk::serve(const Inputs& in, const ModeGuard& mode) noexcept {
       take(ticket, in.cams);
     } else if (axis > 0 && axis <= robot_.count()) {
       robot_.axes[axis - 1].take(ticket, mode.axis_permit());
+    } else if (axis > 0 && axis <= robot_.count() + robot_.singles.count()) {
+      robot_.singles[axis - 1 - robot_.count()].take(ticket, mode.permit());
     } else {
       table.end(ticket, ErrorCode::Value);
     }
@@ -55,6 +58,7 @@ void CommandDesk::take(int ticket, const CamTables& cams) noexcept {
       table.end(ticket, conveyor_.track(command, service == Service::TrackTable));
       break;
     case Service::SelectCam:
+      static_cast<void>(robot_.singles.set_cam(command.option - 1, cams, command.job == 1));
       table.end(ticket, robot_.axes.set_cam(command.option - 1, cams, command.job == 1));
       break;
     default:

@@ -29,7 +29,8 @@ Group::Group(GroupParts parts)
       overrides_(robot_, conveyor_, correction_),
       reloading_(robot_, *this, plans_, gate_.clear(), torques_),
       breakdown_(robot_, *this),
-      motion_report_(robot_, conveyor_) {
+      motion_report_(robot_, conveyor_),
+      singles_(robot_) {
   space_.set_shelf(shelf_.path().pieces);
   ways_.set_shelf(shelf_.path().pieces);
   begin_keeping();
@@ -41,6 +42,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
   torques_.step(in);
   if (const ErrorCode code = mode_.step(in.mode); code != ErrorCode::Ok) {
     stops_.stop_for_mode(code);
+    singles_.halt();
   }
   commands_.serve(in, mode_);
   if (in.requests_known) {
@@ -48,6 +50,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
     for (int i = 0; i < robot_.count(); ++i) {
       robot_.axes[i].serve(in.axes[at(i)], mode_.axis_permit());
     }
+    singles_.serve(in, mode_.permit());
   }
   answers_.serve(in.answer);
   jogging_.step(in.jog, mode_.permits_jogging());
@@ -60,6 +63,8 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
     out.drives[at(i)] = robot_.axes[i].command(in.drives[at(i)], power_.quick_stop());
   }
   torques_.feed(out);
+  measure_travel();
+  singles_.step(in, out);
   report(out);
 }
 
@@ -71,7 +76,14 @@ void Group::sense(const Inputs& in) noexcept {
   for (AxisControl& a : robot_.axes) {
     a.set_stops(in.emergency, robot_.states.to_error());
   }
+  singles_.sense(in);
   conveyor_.sense(in.belts);
+}
+
+// The way of a stop counts, too. Drives that home, or have no power, move the arm on their own.
+void Group::measure_travel() noexcept {
+  const bool leads = robot_.states.powered() && !robot_.states.is(GroupState::Homing) && !robot_.axes.any_displaced();
+  robot_.travel.step(robot_.tool.arm(), robot_.axes.passed(), leads, robot_.period);
 }
 
 // Returns whether all axes are stopped for the emergency; axes that were reset one by one are stopped again.
@@ -184,6 +196,7 @@ void Group::report(Outputs& out) noexcept {
   ways_.report(!conveyor_.on(), out);
   conveyor_.update_product();
   motion_report_.report(commands_motion(), out);
+  singles_.report(out);
 }
 
 }  // namespace indurop::robot

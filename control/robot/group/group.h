@@ -28,6 +28,7 @@
 #include "control/robot/group/service_desk.h"
 #include "control/robot/group/services.h"
 #include "control/robot/group/shared_space.h"
+#include "control/robot/group/single_axes.h"
 #include "control/robot/group/stops.h"
 #include "control/robot/group/torque_watch.h"
 #include "control/robot/group/ways_ahead.h"
@@ -44,7 +45,9 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   [[nodiscard]] std::size_t save(void* to, std::size_t most) const noexcept override;
   [[nodiscard]] bool restore(const void* from, std::size_t bytes) noexcept override;
   [[nodiscard]] const std::vector<std::string>& signals() const noexcept override { return robot_.parts.book.signals; }
-  [[nodiscard]] std::size_t axis_count() const noexcept override { return static_cast<std::size_t>(robot_.count()); }
+  [[nodiscard]] std::size_t axis_count() const noexcept override {
+    return static_cast<std::size_t>(robot_.count() + robot_.singles.count());
+  }
   [[nodiscard]] const std::string& kind() const noexcept override { return robot_.parts.kind; }
 
  private:
@@ -52,6 +55,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
 
   // What may end a motion from outside.
   void sense(const Inputs& in) noexcept;
+  void measure_travel() noexcept;
   void watch(const Inputs& in) noexcept;
   [[nodiscard]] bool stopped_for_emergency() const noexcept;
 
@@ -116,6 +120,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   Reloading reloading_;
   Breakdown breakdown_;
   MotionReport motion_report_;
+  SingleAxes singles_;
   KeptImage kept_;  // of all members before it
 };
 

@@ -31,10 +31,14 @@ void take_over(const std::vector<WrongSetting>& from, Diagnostics& to) {
   }
 }
 
-// Converts one value per axis from deg or mm.
-void take(const std::vector<double>& values, const Arm& arm, Joints& to) {
-  for (int i = 0; i < static_cast<int>(values.size()); ++i) {
-    to[i] = values[static_cast<std::size_t>(i)] * (arm.axis(i).slides() ? 0.001 : kPi / 180);
+// Converts one value per axis, those of the arm and then the single ones, from deg or mm.
+void take(const std::vector<double>& values, const GroupParts& parts, Joints& arm, Joints& singles) {
+  const auto count = static_cast<std::size_t>(parts.arm.count());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool own = i < count;
+    const Axis& axis = own ? parts.arm.axis(static_cast<int>(i)) : parts.singles[i - count];
+    const auto to = static_cast<Eigen::Index>(own ? i : i - count);
+    (own ? arm : singles)[to] = values[i] * (axis.slides() ? 0.001 : kPi / 180);
   }
 }
 
@@ -49,13 +53,17 @@ GroupParts parts_of(const Settings& settings, ReadFiles files) {
                    model.dynamics,
                    std::move(files.clearance),
                    std::move(files.urdf),
-                   files.mark};
+                   files.mark,
+                   model.singles};
   parts.dynamics.turn_rotors(of_axes(settings.rotor_inertia));
   parts.joints.velocity = model.velocity;
   parts.joints.acceleration = model.velocity / settings.time_to_speed;
-  take(settings.acceleration, parts.arm, parts.joints.acceleration);
+  parts.single_limits.velocity = model.single_velocity;
+  parts.single_limits.acceleration = model.single_velocity / settings.time_to_speed;
+  take(settings.acceleration, parts, parts.joints.acceleration, parts.single_limits.acceleration);
   parts.joints.jerk = parts.joints.acceleration / settings.time_to_acceleration;
-  take(settings.jerk, parts.arm, parts.joints.jerk);
+  parts.single_limits.jerk = parts.single_limits.acceleration / settings.time_to_acceleration;
+  take(settings.jerk, parts, parts.joints.jerk, parts.single_limits.jerk);
   ToolLimits& tool = parts.tool;
   tool.velocity = settings.tool_speed / 1000;
   tool.acceleration = tool.velocity / settings.time_to_speed;
@@ -84,7 +92,7 @@ std::unique_ptr<Controller> Controller::load(const Settings& settings, std::vect
   ReadFiles files = read_files(names_of(settings));
   take_over(std::move(files.errors), wrong);
   if (files.model) {
-    take_over(check_axes(settings, files.model->arm, files.model->dynamics.known()), wrong);
+    take_over(check_axes(settings, files.model->arm, files.model->dynamics.known(), files.model->singles.size()), wrong);
   }
   if (wrong.empty()) {
     return std::make_unique<Group>(parts_of(settings, std::move(files)));

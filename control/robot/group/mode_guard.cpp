@@ -14,7 +14,7 @@ constexpr double kPlanned = 0.98 * kReducedSpeed;  // m/s; the motion may be fas
 
 bool ModeGuard::at_standstill() const noexcept {
   const GroupStates& states = robot_.states;
-  return !robot_.axes.any_busy() && !states.busy();
+  return !robot_.axes.any_busy() && !robot_.singles.any_busy() && !states.busy();
 }
 
 ErrorCode ModeGuard::step(const ModeRequest& request) noexcept {
@@ -46,6 +46,11 @@ double ModeGuard::axes_pace(bool jogging) const noexcept {
     }
   }
   return most > kPlanned ? kPlanned / most : 1;
+}
+
+double ModeGuard::single_pace(int axis) const noexcept {
+  const bool limited = mode_ == OperatingMode::Manual && robot_.parts.singles[at(axis)].slides();
+  return limited ? std::min(1.0, kPlanned / robot_.parts.single_limits.velocity[axis]) : 1;
 }
 
 bool ModeGuard::tip_too_fast(bool off_path) const noexcept {

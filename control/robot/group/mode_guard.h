@@ -29,6 +29,8 @@ class ModeGuard {
   // For single axes: the part of their full speed at which the tip and the arm's end keep the limit, even if all
   // moving axes are as fast as they can be.
   [[nodiscard]] double axes_pace(bool jogging) const noexcept;
+  // The same for a sliding axis that belongs to no group; others of these may be at full speed.
+  [[nodiscard]] double single_pace(int axis) const noexcept;
   // The check of the last gate, for the set points that are about to be sent. `off_path`: something moves them away
   // from the planned path.
   [[nodiscard]] bool tip_too_fast(bool off_path) const noexcept;

@@ -28,6 +28,12 @@ void Overrides::step(const Inputs& in, bool interrupted, const ModeGuard& mode, 
     a.set_override(in.hold ? 0 : std::min(part * factor(in.factors.velocity[at(i)]), slow));
     a.set_factors(in.factors.acceleration[at(i)], in.factors.jerk[at(i)]);
   }
+  for (int i = 0; i < robot_.singles.count(); ++i) {
+    AxisControl& a = robot_.singles[i];
+    const std::size_t k = at(robot_.count() + i);
+    a.set_override(in.hold ? 0 : std::min(part * factor(in.factors.velocity[k]), mode.single_pace(i)));
+    a.set_factors(in.factors.acceleration[k], in.factors.jerk[k]);
+  }
 }
 
 }  // namespace indurop::robot

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "control/robot/collision/clearance.h"
 #include "control/robot/job/job.h"
@@ -27,6 +28,9 @@ struct GroupParts {
   Clearance clearance;
   std::string urdf{};      // the text of its file
   std::uint64_t mark = 0;  // as ReadFiles::mark
+  // The axes that belong to no group; their numbers are after those of the arm.
+  std::vector<Axis> singles{};
+  JointLimits single_limits{};
 };
 
 }  // namespace indurop::robot

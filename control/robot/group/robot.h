@@ -12,6 +12,7 @@
 #include "control/robot/group/held_tool.h"
 #include "control/robot/group/parts.h"
 #include "control/robot/group/states.h"
+#include "control/robot/group/travel.h"
 #include "control/robot/job/runner.h"
 #include "control/robot/path/follower.h"
 
@@ -23,11 +24,13 @@ struct Robot {
         period(std::chrono::duration<double>(parts.settings.period).count()),
         tool(parts),
         axes(parts, table),
+        singles(parts, table, travel.seen()),
         follower(tool.places(), parts.joints),
         job(parts.book) {}
   Robot(const Robot&) = delete;
   Robot& operator=(const Robot&) = delete;
 
+  // Number of axes of the arm; the single ones come after them.
   [[nodiscard]] int count() const noexcept { return parts.arm.count(); }
   [[nodiscard]] Joints commanded() const noexcept { return axes.commanded(); }
   // The tool's pose at these joint positions.
@@ -43,6 +46,8 @@ struct Robot {
   CommandTable table;
   HeldTool tool;
   AxisRow axes;
+  Travel travel;
+  AxisRow singles;
   GroupStates states;
   Follower follower;
   JobRunner job;

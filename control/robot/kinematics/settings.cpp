@@ -201,21 +201,23 @@ std::vector<WrongSetting> check_settings(const Settings& settings) {
   return wrong;
 }
 
-std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm, bool weighed) {
+std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm, bool weighed,
+                                     std::size_t singles) {
   Wrong wrong;
   const auto count = static_cast<std::size_t>(arm.count());
-  const auto check = [&](const char* name, const std::vector<double>& values, bool or_none = false) {
+  const std::size_t all = count + singles;
+  const auto check = [&](const char* name, const std::vector<double>& values, std::size_t many, bool or_none = false) {
     const auto is_sane = [&](double v) { return std::isfinite(v) && (v > 0 || (or_none && v == 0)); };
-    const bool fits = values.empty() || values.size() == count;
+    const bool fits = values.empty() || values.size() == many;
     if (!fits || !std::all_of(values.begin(), values.end(), is_sane)) {
-      wrong.push_back({name, "it has to be " + std::to_string(count) + " numbers " + (or_none ? "from" : "above") +
+      wrong.push_back({name, "it has to be " + std::to_string(many) + " numbers " + (or_none ? "from" : "above") +
                                  " 0, one of each axis"});
     }
   };
   const auto check_shared = [&](const char* name, const std::vector<double>& values, bool or_none = false) {
     const auto is_sane = [&](double v) { return std::isfinite(v) && (or_none || v != 0); };
-    if ((values.size() != 1 && values.size() != count) || !std::all_of(values.begin(), values.end(), is_sane)) {
-      wrong.push_back({name, "it has to be one number for all axes, or " + std::to_string(count) + ", one of each" +
+    if ((values.size() != 1 && values.size() != all) || !std::all_of(values.begin(), values.end(), is_sane)) {
+      wrong.push_back({name, "it has to be one number for all axes, or " + std::to_string(all) + ", one of each" +
                                  (or_none ? "" : "; none may be 0")});
     }
   };
@@ -223,16 +225,16 @@ std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm, b
   check_shared("counts_per_mm", settings.counts_per_mm);
   check_shared("gear", settings.gear);
   check_shared("zero", settings.zero, true);
-  check("acceleration", settings.acceleration);
-  check("jerk", settings.jerk);
-  check("rated_torque", settings.rated_torque);
+  check("acceleration", settings.acceleration, all);
+  check("jerk", settings.jerk, all);
+  check("rated_torque", settings.rated_torque, count);
   // The torques of axes that move the workpiece are not known, so none may be unexpected.
   std::vector<double> of_arm = settings.collision_limit;
   for (std::size_t i = 0; of_arm.size() == count && i < count; ++i) {
     of_arm[i] = arm.moves_workpiece(static_cast<int>(i)) && of_arm[i] == 0 ? 1 : of_arm[i];
   }
-  check("collision_limit", of_arm);
-  check("rotor_inertia", settings.rotor_inertia, true);
+  check("collision_limit", of_arm, count);
+  check("rotor_inertia", settings.rotor_inertia, count, true);
   for (const char* name : {"collision_limit", "rotor_inertia"}) {
     const bool rotors = name == std::string_view("rotor_inertia");
     if (!(rotors ? settings.rotor_inertia : settings.collision_limit).empty() && !weighed) {

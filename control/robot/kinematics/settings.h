@@ -28,8 +28,10 @@ using PropertyText = std::function<std::string(const char* name)>;
 std::vector<WrongSetting> take_properties(const PropertyText& given, Settings& settings);
 // Checks for values that make no sense.
 std::vector<WrongSetting> check_settings(const Settings& settings);
-// Checks the settings that have one value per axis; `weighed`: the torques of the arm are known.
-std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm, bool weighed = true);
+// Checks the settings that have one value per axis; `weighed`: the torques of the arm are known. `singles`: number of
+// axes that belong to no group.
+std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm, bool weighed = true,
+                                     std::size_t singles = 0);
 // Converts such a setting; zeros if it is empty.
 Joints of_axes(const std::vector<double>& values) noexcept;
 // The names that take_properties() knows, and urdf and jobs.

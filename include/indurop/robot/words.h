@@ -57,7 +57,11 @@ enum class Service : std::int32_t {
   // By commands.
   TrackBelt,    // the product moves with belt `option`, along x of `to`, starting from `aux` in it
   TrackTable,   // the same about z of `to`
-  FreeAbsolute  // around obstacles; `aux`: seed of the search, and s that it may take at most, 0: 10
+  FreeAbsolute,  // around obstacles; `aux`: seed of the search, and s that it may take at most, 0: 10
+  // The path follows single axis `option`, or belt `job`: to[0] / to[1] mm for each mm or degree of it; to[2]: mm that
+  // it may be behind or ahead, 0: any distance.
+  FollowMaster,
+  LeaveMaster  // the path no longer follows
 };
 
 // Services of one axis.
@@ -93,7 +97,8 @@ enum class AxisService : std::int32_t {
   PositionProfile,  // table `job` of times: to[0] scales the time, to[1] the values, to[2] is added to the values
   VelocityProfile,
   AccelerationProfile,
-  TorqueControl  // applies to[0] N m (N), ramped by to[1] per second, no faster than `velocity`
+  TorqueControl,  // applies to[0] N m (N), ramped by to[1] per second, no faster than `velocity`
+  FollowPath      // of a single axis: follows the way of the tool with to[0] / to[1] mm or degrees for each mm of it
 };
 
 enum class ErrorCode : std::uint32_t {
