@@ -29,6 +29,9 @@ void CommandDesk::take(int ticket, const CamTables& cams) noexcept {
   const Service service = group_service_of(command);
   services_.abort_waiting();
   if (is_motion(service)) {
+    if (service == Service::Halt) {
+      others_.sync.end_at_rest();
+    }
     queue_.take(ticket);
     return;
   }
@@ -42,7 +45,7 @@ void CommandDesk::take(int ticket, const CamTables& cams) noexcept {
       services_.take(ticket);
       break;
     case Service::Stop:
-      stops_.take(ticket);
+      others_.stops.take(ticket);
       break;
     case Service::Interrupt:
       queue_.interrupt(ticket);
@@ -51,11 +54,14 @@ void CommandDesk::take(int ticket, const CamTables& cams) noexcept {
       queue_.go_on(ticket);
       break;
     case Service::SetTransform:
-      table.end(ticket, conveyor_.set_product(command));
+      table.end(ticket, others_.conveyor.set_product(command));
       break;
     case Service::TrackBelt:
     case Service::TrackTable:
-      table.end(ticket, conveyor_.track(command, service == Service::TrackTable));
+      table.end(ticket, others_.conveyor.track(command, service == Service::TrackTable));
+      break;
+    case Service::FollowMaster:
+      others_.sync.take(ticket);
       break;
     case Service::SelectCam:
       static_cast<void>(robot_.singles.set_cam(command.option - 1, cams, command.job == 1));

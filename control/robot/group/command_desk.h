@@ -5,6 +5,7 @@
 #pragma once
 
 #include "control/robot/group/conveyor_tracking.h"
+#include "control/robot/group/master_sync.h"
 #include "control/robot/group/motion_queue.h"
 #include "control/robot/group/robot.h"
 #include "control/robot/group/service_desk.h"
@@ -14,9 +15,14 @@ namespace indurop::robot {
 
 class CommandDesk {
  public:
-  CommandDesk(Robot& robot, ServiceDesk& services, MotionQueue& queue, ConveyorTracking& conveyor,
-              Stops& stops) noexcept
-      : robot_(robot), services_(services), queue_(queue), conveyor_(conveyor), stops_(stops) {}
+  // The classes that execute commands which are neither motions nor services.
+  struct Others {
+    ConveyorTracking& conveyor;
+    MasterSync& sync;
+    Stops& stops;
+  };
+  CommandDesk(Robot& robot, ServiceDesk& services, MotionQueue& queue, const Others& others) noexcept
+      : robot_(robot), services_(services), queue_(queue), others_(others) {}
 
   // Takes all new commands. Real-time safe.
   void serve(const Inputs& in, const ModeGuard& mode) noexcept;
@@ -27,8 +33,7 @@ class CommandDesk {
   Robot& robot_;
   ServiceDesk& services_;
   MotionQueue& queue_;
-  ConveyorTracking& conveyor_;
-  Stops& stops_;
+  Others others_;
 };
 
 }  // namespace indurop::robot

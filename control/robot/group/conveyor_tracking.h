@@ -49,6 +49,8 @@ class ConveyorTracking {
   // Where the next motion begins.
   [[nodiscard]] Joints planned_end() const noexcept;
 
+  // As its reader reports it.
+  [[nodiscard]] const BeltEstimator& belt(int number) const noexcept { return belts_[at(number)]; }
   // All motions are held, or not.
   void set_paused(bool paused) noexcept { paused_ = paused; }
   // Part of the accelerations that a motion which is planned now may use.

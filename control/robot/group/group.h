@@ -15,6 +15,7 @@
 #include "control/robot/group/jogging.h"
 #include "control/robot/group/kept_image.h"
 #include "control/robot/group/last_gate.h"
+#include "control/robot/group/master_sync.h"
 #include "control/robot/group/mode_guard.h"
 #include "control/robot/group/motion_queue.h"
 #include "control/robot/group/motion_report.h"
@@ -115,6 +116,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   Services services_;
   ServiceDesk service_;
   AnswerDesk answers_;
+  MasterSync sync_;
   CommandDesk commands_;
   Overrides overrides_;
   Reloading reloading_;

@@ -18,7 +18,8 @@ void Overrides::step(const Inputs& in, bool interrupted, const ModeGuard& mode, 
   const double of_group = part * factor(in.factors.group);
   const bool held = in.hold || interrupted;
   const double limit = mode.tip_limit(jogging);
-  robot_.follower.set_override(of_group * conveyor_.pace());
+  const double synced = jogging ? 1 : sync_.step(held || of_group < Follower::kStill);
+  robot_.follower.set_override(std::min(of_group * conveyor_.pace(), synced));
   robot_.follower.set_tip_limit(std::max(0.1 * limit, limit - conveyor_.speed() - correction_.speed()));
   robot_.follower.set_hold(held || (conveyor_.on() && !conveyor_.is_synchronized()));
   conveyor_.set_paused(held || of_group < Follower::kStill);

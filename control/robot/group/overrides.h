@@ -4,6 +4,7 @@
 #pragma once
 
 #include "control/robot/group/conveyor_tracking.h"
+#include "control/robot/group/master_sync.h"
 #include "control/robot/group/mode_guard.h"
 #include "control/robot/group/motion_queue.h"
 #include "control/robot/group/path_correction.h"
@@ -13,8 +14,8 @@ namespace indurop::robot {
 
 class Overrides {
  public:
-  Overrides(Robot& robot, ConveyorTracking& conveyor, const PathCorrection& correction) noexcept
-      : robot_(robot), conveyor_(conveyor), correction_(correction) {}
+  Overrides(Robot& robot, ConveyorTracking& conveyor, const PathCorrection& correction, MasterSync& sync) noexcept
+      : robot_(robot), conveyor_(conveyor), correction_(correction), sync_(sync) {}
 
   // Values above full speed count as full speed; values that are not numbers hold all motions. `interrupted`: by a
   // command. Real-time safe.
@@ -28,6 +29,7 @@ class Overrides {
   Robot& robot_;
   ConveyorTracking& conveyor_;
   const PathCorrection& correction_;
+  MasterSync& sync_;
   bool wrong_ = false;
 };
 

@@ -60,8 +60,7 @@ enum class Service : std::int32_t {
   FreeAbsolute,  // around obstacles; `aux`: seed of the search, and s that it may take at most, 0: 10
   // The path follows single axis `option`, or belt `job`: to[0] / to[1] mm for each mm or degree of it; to[2]: mm that
   // it may be behind or ahead, 0: any distance.
-  FollowMaster,
-  LeaveMaster  // the path no longer follows
+  FollowMaster
 };
 
 // Services of one axis.

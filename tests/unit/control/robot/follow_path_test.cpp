@@ -166,6 +166,7 @@ TEST_F(SlowFeeder, Leaves_a_tool_that_is_too_fast_for_it_and_stops_before_its_en
   ASSERT_TRUE(until([&] { return ended(slow); }));
   EXPECT_TRUE(reached(first) && !ended(first));
   const Given sut = follow(1);
+  ASSERT_TRUE(until([&] { return reached(sut); }));
   const Given fast = line(500, -300, 400, 900);
   ASSERT_TRUE(until([&] { return ended(sut); }));
   EXPECT_THAT(error(sut), testing::AnyOf(ErrorCode::Speed, ErrorCode::Acceleration, ErrorCode::Jerk));
@@ -173,7 +174,8 @@ TEST_F(SlowFeeder, Leaves_a_tool_that_is_too_fast_for_it_and_stops_before_its_en
   EXPECT_EQ(state(fast), CommandState::Done) << "the tool goes on";
   const Given home = give(kFeeder, AxisService::MoveAbsolute, 250);
   ASSERT_TRUE(until([&] { return ended(home); }));
-  const Given again = follow(0.28);
+  const Given again = follow(0.2);
+  ASSERT_TRUE(until([&] { return reached(again); }));
   const Given far = line(500, 300, 400, 100);
   ASSERT_TRUE(until([&] { return ended(far); }, 4000));
   EXPECT_EQ(error(again), ErrorCode::JointLimit);
