@@ -220,7 +220,13 @@ Result<ArmModel, std::vector<base::Diagnostic>> UrdfReader::read_delta(const urd
     return std::move(errors_);
   }
   note("torques are not known and have no limit: the arm is a delta");
-  return ArmModel{Arm(std::move(axes_), delta, count_), velocity_, {}, {}, {}, std::move(notes_), std::move(singles_),
+  return ArmModel{Arm(std::move(axes_), delta, count_),
+                  velocity_,
+                  {},
+                  {},
+                  {},
+                  std::move(notes_),
+                  std::move(singles_),
                   single_velocity_};
 }
 

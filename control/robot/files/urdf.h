@@ -30,7 +30,8 @@ struct ArmModel {
 // Reads the moving joints between the root link and the tool: the link called tool0 or tcp if there is one, else the
 // end of the chain. Joints that mimic one of them form a linkage. <workpiece link="..."/> names the link to which the
 // workpiece is fixed: the joints between the root and this link are axes, too, after those of the arm, and the base's
-// frame is that of this link. <single_axes joints="..."/> names joints that are axes, but belong to no group. Errors: everything that is wrong in the text of `file`.
+// frame is that of this link. <single_axes joints="..."/> names joints that are axes, but belong to no group. Errors:
+// everything that is wrong in the text of `file`.
 Result<ArmModel, std::vector<base::Diagnostic>> arm_from_urdf(const std::string& file, const std::string& text);
 
 }  // namespace indurop::robot

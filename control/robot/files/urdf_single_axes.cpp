@@ -24,7 +24,8 @@ void UrdfReader::take_singles() {
     if (joint == nullptr || !is_axis(*joint)) {
       error(at, "<single_axes> names '" + name + "', which is no revolute, continuous or prismatic joint");
     } else if (std::find(taken.begin(), taken.end(), joint) != taken.end()) {
-      error(at, "<single_axes>: joint '" + name + "' is an axis already; name joints that are not between root and tool");
+      error(at,
+            "<single_axes>: joint '" + name + "' is an axis already; name joints that are not between root and tool");
     } else if (joint->mimic != nullptr) {
       error(place_of(name), "joint '" + name + "' is a single axis, and cannot follow another joint");
     } else if (count_ + static_cast<int>(singles_.size()) == kAxes) {

@@ -17,35 +17,21 @@ AxisControl::Scale scale_of(const Settings& settings, const Axis& axis, std::siz
 
 }  // namespace
 
-AxisRow::AxisRow(const GroupParts& parts, const JointLimits& limits, std::size_t count) noexcept
-    : limits_(limits),
+AxisRow::AxisRow(const GroupParts& parts, CommandTable& table, const ToolTravel* travel) noexcept
+    : limits_(travel != nullptr ? parts.single_limits : parts.joints),
       period_(std::chrono::duration<double>(parts.settings.period).count()),
       following_limit_(parts.settings.following_limit),
-      count_(static_cast<int>(count)) {}
-
-AxisRow::AxisRow(const GroupParts& parts, CommandTable& table) noexcept
-    : AxisRow(parts, parts.joints, static_cast<std::size_t>(parts.arm.count())) {
+      count_(travel != nullptr ? static_cast<int>(parts.singles.size()) : parts.arm.count()) {
+  const Settings& settings = parts.settings;
+  const auto count = static_cast<std::size_t>(count_);
+  const int first = travel != nullptr ? parts.arm.count() : 0;
   for (int i = 0; i < count_; ++i) {
-    set_up(parts.settings, parts.arm.axis(i), table, {{}, {}, {}, nullptr, i});
+    const LineLimits limits{limits_.velocity[i], limits_.acceleration[i], limits_.jerk[i]};
+    const Axis& axis = travel != nullptr ? parts.singles[at(i)] : parts.arm.axis(i);
+    axes_[at(i)].set_up(axis, limits, scale_of(settings, axis, at(first + i)), settings.absolute, &table,
+                        {{axes_.data(), count}, {gates_.data(), count}, cams_, &profiles_, i, first, travel});
+    gates_[at(i)] = SetPointGate({axis.lower, axis.upper, axis.endless}, limits, period_);
   }
-}
-
-AxisRow::AxisRow(const GroupParts& parts, CommandTable& table, const ToolTravel& travel) noexcept
-    : AxisRow(parts, parts.single_limits, parts.singles.size()) {
-  for (int i = 0; i < count_; ++i) {
-    set_up(parts.settings, parts.singles[at(i)], table, {{}, {}, {}, nullptr, i, parts.arm.count(), &travel});
-  }
-}
-
-void AxisRow::set_up(const Settings& settings, const Axis& axis, CommandTable& table, AxisNeighbours row) noexcept {
-  const int i = row.own;
-  const LineLimits limits{limits_.velocity[i], limits_.acceleration[i], limits_.jerk[i]};
-  row.axes = {axes_.data(), static_cast<std::size_t>(count_)};
-  row.gates = {gates_.data(), static_cast<std::size_t>(count_)};
-  row.cams = cams_;
-  row.profiles = &profiles_;
-  axes_[at(i)].set_up(axis, limits, scale_of(settings, axis, at(row.first + i)), settings.absolute, &table, row);
-  gates_[at(i)] = SetPointGate({axis.lower, axis.upper, axis.endless}, limits, period_);
 }
 
 Joints AxisRow::commanded() const noexcept {

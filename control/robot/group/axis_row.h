@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All axes of the arm, or all single axes, with the gates after them, the cams and profiles that they follow, and the set points of the
-// last period. Knows nothing of the group.
+// All axes of the arm, or all single axes, with the gates after them, the cams and profiles that they follow, and the
+// set points of the last period. Knows nothing of the group.
 
 #pragma once
 
@@ -16,10 +16,9 @@ namespace indurop::robot {
 
 class AxisRow {
  public:
-  // `parts` and `table` must outlive it.
-  AxisRow(const GroupParts& parts, CommandTable& table) noexcept;
-  // The single axes, which belong to no group. They may follow the tool, whose `travel` must outlive it, too.
-  AxisRow(const GroupParts& parts, CommandTable& table, const ToolTravel& travel) noexcept;
+  // `parts`, `table` and `travel` must outlive it. With the way of the tool, which they may follow, it is the row of
+  // the single axes; else that of the arm.
+  AxisRow(const GroupParts& parts, CommandTable& table, const ToolTravel* travel = nullptr) noexcept;
   AxisRow(const AxisRow&) = delete;
   AxisRow& operator=(const AxisRow&) = delete;
 
@@ -82,8 +81,6 @@ class AxisRow {
   }
 
  private:
-  AxisRow(const GroupParts& parts, const JointLimits& limits, std::size_t count) noexcept;
-  void set_up(const Settings& settings, const Axis& axis, CommandTable& table, AxisNeighbours row) noexcept;
   [[nodiscard]] bool is_behind(const AxisControl& a) const noexcept;
 
   std::array<AxisControl, kAxes> axes_;

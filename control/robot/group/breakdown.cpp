@@ -16,7 +16,8 @@ void Breakdown::report(Outputs& out) noexcept {
   constexpr double kPatience = 1;  // s; a drive that is still on by then stays on
   const bool rests = why_[0] != '\0' && !robot_.states.stopping();
   rested_ += rests ? robot_.period : 0;
-  out.broken = rests && (!(robot_.axes.any_enabled() || robot_.singles.any_enabled()) || rested_ > kPatience) ? why_ : nullptr;
+  out.broken =
+      rests && (!(robot_.axes.any_enabled() || robot_.singles.any_enabled()) || rested_ > kPatience) ? why_ : nullptr;
 }
 
 }  // namespace indurop::robot

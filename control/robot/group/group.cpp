@@ -25,13 +25,11 @@ Group::Group(GroupParts parts)
       services_(robot_, *this, {plans_, resuming_, conveyor_, queue_, mode_, stops_, power_, job_motions_}),
       service_(robot_, *this, plans_, services_),
       answers_(robot_.job),
-      sync_(robot_, *this, conveyor_),
-      commands_(robot_, service_, queue_, {conveyor_, sync_, stops_}),
-      overrides_(robot_, conveyor_, correction_, sync_),
+      overrides_(robot_, *this, conveyor_, correction_),
+      commands_(robot_, service_, queue_, {conveyor_, overrides_.sync(), stops_}),
       reloading_(robot_, *this, plans_, gate_.clear(), torques_),
       breakdown_(robot_, *this),
-      motion_report_(robot_, conveyor_),
-      singles_(robot_) {
+      motion_report_(robot_, conveyor_) {
   space_.set_shelf(shelf_.path().pieces);
   ways_.set_shelf(shelf_.path().pieces);
   begin_keeping();
@@ -43,7 +41,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
   torques_.step(in);
   if (const ErrorCode code = mode_.step(in.mode); code != ErrorCode::Ok) {
     stops_.stop_for_mode(code);
-    singles_.halt();
+    robot_.single.halt();
   }
   commands_.serve(in, mode_);
   if (in.requests_known) {
@@ -51,7 +49,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
     for (int i = 0; i < robot_.count(); ++i) {
       robot_.axes[i].serve(in.axes[at(i)], mode_.axis_permit());
     }
-    singles_.serve(in, mode_.permit());
+    robot_.single.serve(in, mode_.permit());
   }
   answers_.serve(in.answer);
   jogging_.step(in.jog, mode_.permits_jogging());
@@ -64,8 +62,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
     out.drives[at(i)] = robot_.axes[i].command(in.drives[at(i)], power_.quick_stop());
   }
   torques_.feed(out);
-  measure_travel();
-  singles_.step(in, out);
+  robot_.single.step(in, out);
   report(out);
 }
 
@@ -77,14 +74,8 @@ void Group::sense(const Inputs& in) noexcept {
   for (AxisControl& a : robot_.axes) {
     a.set_stops(in.emergency, robot_.states.to_error());
   }
-  singles_.sense(in);
+  robot_.single.sense(in);
   conveyor_.sense(in.belts);
-}
-
-// The way of a stop counts, too. Drives that home, or have no power, move the arm on their own.
-void Group::measure_travel() noexcept {
-  const bool leads = robot_.states.powered() && !robot_.states.is(GroupState::Homing) && !robot_.axes.any_displaced();
-  robot_.travel.step(robot_.tool.arm(), robot_.axes.passed(), leads, robot_.period);
 }
 
 // Returns whether all axes are stopped for the emergency; axes that were reset one by one are stopped again.
@@ -197,7 +188,7 @@ void Group::report(Outputs& out) noexcept {
   ways_.report(!conveyor_.on(), out);
   conveyor_.update_product();
   motion_report_.report(commands_motion(), out);
-  singles_.report(out);
+  robot_.single.report(out);
 }
 
 }  // namespace indurop::robot

@@ -15,7 +15,6 @@
 #include "control/robot/group/jogging.h"
 #include "control/robot/group/kept_image.h"
 #include "control/robot/group/last_gate.h"
-#include "control/robot/group/master_sync.h"
 #include "control/robot/group/mode_guard.h"
 #include "control/robot/group/motion_queue.h"
 #include "control/robot/group/motion_report.h"
@@ -29,7 +28,6 @@
 #include "control/robot/group/service_desk.h"
 #include "control/robot/group/services.h"
 #include "control/robot/group/shared_space.h"
-#include "control/robot/group/single_axes.h"
 #include "control/robot/group/stops.h"
 #include "control/robot/group/torque_watch.h"
 #include "control/robot/group/ways_ahead.h"
@@ -56,7 +54,6 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
 
   // What may end a motion from outside.
   void sense(const Inputs& in) noexcept;
-  void measure_travel() noexcept;
   void watch(const Inputs& in) noexcept;
   [[nodiscard]] bool stopped_for_emergency() const noexcept;
 
@@ -116,13 +113,11 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   Services services_;
   ServiceDesk service_;
   AnswerDesk answers_;
-  MasterSync sync_;
-  CommandDesk commands_;
   Overrides overrides_;
+  CommandDesk commands_;
   Reloading reloading_;
   Breakdown breakdown_;
   MotionReport motion_report_;
-  SingleAxes singles_;
   KeptImage kept_;  // of all members before it
 };
 

@@ -92,7 +92,8 @@ std::unique_ptr<Controller> Controller::load(const Settings& settings, std::vect
   ReadFiles files = read_files(names_of(settings));
   take_over(std::move(files.errors), wrong);
   if (files.model) {
-    take_over(check_axes(settings, files.model->arm, files.model->dynamics.known(), files.model->singles.size()), wrong);
+    take_over(check_axes(settings, files.model->arm, files.model->dynamics.known(), files.model->singles.size()),
+              wrong);
   }
   if (wrong.empty()) {
     return std::make_unique<Group>(parts_of(settings, std::move(files)));

@@ -16,9 +16,26 @@ constexpr double kMostRatio = 1e6;
 constexpr double kMillimetre = 0.001;
 constexpr double kInStep = 0.001;     // m, distance from the wanted place that counts as none
 constexpr double kPull = 3;           // 1/s, rate at which a distance is made up for
+constexpr double kPush = 10;          // 1/s, the same for a path that is ahead
 constexpr double kLook = 0.25;        // s that a change of speed takes, about
 constexpr double kBeginning = 0.2;    // part of full speed at which a path begins before more is known
 constexpr double kLeastShare = 0.01;  // of the tool's full speed: slower places count as that fast
+
+// Returns the speed of the tool in m/s that full speed is where it will be in `seconds`; 0: it is not known.
+double speed_ahead(const Follower& follower, double seconds, const Arm& arm) noexcept {
+  constexpr double kStep = 0.002;  // s
+  const FollowedPath& path = follower.path();
+  const double rate = path.segment().timed ? 1 : path.piece_limits().velocity;
+  const double by = std::min(rate * kStep, path.left());
+  const double ahead = std::min(path.state().velocity * seconds, path.left() - by);
+  Joints one = follower.joints();
+  Joints other = one;
+  if (!(by > 0) || path.joints_ahead(ahead, follower.joints(), one) != Reach::Ok ||
+      path.joints_ahead(ahead + by, one, other) != Reach::Ok) {
+    return 0;
+  }
+  return (arm.forward(other).position - arm.forward(one).position).norm() * rate / by;
+}
 
 }  // namespace
 
@@ -135,15 +152,17 @@ double MasterSync::step(bool held) noexcept {
   return part_;
 }
 
-// The part of full speed at which the tool has the master's speed, and makes up for a distance that is missing. Before a
-// path that begins can become fast, the part has to be smaller, so it looks ahead as far as a change takes.
+// The part of full speed at which the tool has the master's speed, and makes up for a distance that is missing. Before
+// a path that begins can become fast, the part has to be smaller, so it looks ahead as far as a change takes.
 double MasterSync::part_for(double lag, double speed) const noexcept {
-  const double wanted = speed + kPull * lag;
+  const double wanted = speed + (lag > 0 ? kPull : kPush) * lag;
   if (wanted <= 0) {
     return 0;
   }
   const double least = kLeastShare * robot_.parts.tool.velocity;
-  const double full = std::max({robot_.follower.tool_speed_at(0), robot_.follower.tool_speed_at(kLook), least});
+  const Follower& follower = robot_.follower;
+  const Arm& arm = robot_.tool.arm();
+  const double full = std::max({speed_ahead(follower, 0, arm), speed_ahead(follower, kLook, arm), least});
   const double part = std::min(wanted / full, 1.0);
   return part_ > 0 ? std::sqrt(part * std::max(part_, 0.01)) : part;
 }

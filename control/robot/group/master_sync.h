@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The path of the group follows a master, a single axis or a belt (MC_SyncGroupToAxis): it has gone as far as the master
-// says, as nearly as the limits of the planned path permit. It acts like an override that changes in each period, so it
-// makes no motion faster than planned, and none leaves its path.
+// The path of the group follows a master, a single axis or a belt (MC_SyncGroupToAxis): it has gone as far as the
+// master says, as nearly as the limits of the planned path permit. It acts like an override that changes in each
+// period, so it makes no motion faster than planned, and none leaves its path.
 
 #pragma once
 
@@ -42,13 +42,13 @@ class MasterSync {
   const ConveyorTracking& conveyor_;
   int ticket_ = CommandTable::kNone;
   bool ends_ = false;
-  int axis_ = -1;       // of the single axes, from 0; -1: the belt
-  int belt_ = 0;        // from 0
-  double ratio_ = 0;    // m of the path for each mm or degree of the master
-  double most_ = 0;     // m behind or ahead
-  double seen_ = 0;     // place of the master in the last period
-  double wanted_ = 0;   // place of the path that the master asks for, as Travel counts
-  double part_ = 1;     // of full speed
+  int axis_ = -1;      // of the single axes, from 0; -1: the belt
+  int belt_ = 0;       // from 0
+  double ratio_ = 0;   // m of the path for each mm or degree of the master
+  double most_ = 0;    // m behind or ahead
+  double seen_ = 0;    // place of the master in the last period
+  double wanted_ = 0;  // place of the path that the master asks for, as Travel counts
+  double part_ = 1;    // of full speed
 };
 
 }  // namespace indurop::robot

@@ -14,12 +14,13 @@ namespace indurop::robot {
 
 class Overrides {
  public:
-  Overrides(Robot& robot, ConveyorTracking& conveyor, const PathCorrection& correction, MasterSync& sync) noexcept
-      : robot_(robot), conveyor_(conveyor), correction_(correction), sync_(sync) {}
+  Overrides(Robot& robot, GroupPort& group, ConveyorTracking& conveyor, const PathCorrection& correction) noexcept
+      : robot_(robot), conveyor_(conveyor), correction_(correction), sync_(robot, group, conveyor) {}
 
   // Values above full speed count as full speed; values that are not numbers hold all motions. `interrupted`: by a
   // command. Real-time safe.
   void step(const Inputs& in, bool interrupted, const ModeGuard& mode, bool jogging) noexcept;
+  [[nodiscard]] MasterSync& sync() noexcept { return sync_; }
   // Returns whether a value of this period is below 0 or no number.
   [[nodiscard]] bool wrong() const noexcept { return wrong_; }
 
@@ -29,7 +30,7 @@ class Overrides {
   Robot& robot_;
   ConveyorTracking& conveyor_;
   const PathCorrection& correction_;
-  MasterSync& sync_;
+  MasterSync sync_;
   bool wrong_ = false;
 };
 

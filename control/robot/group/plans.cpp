@@ -14,7 +14,7 @@ bool goes_over(const PathPieces& path) noexcept {
 
 void Plans::ask(const PlanRequest& request) noexcept {
   PlanRequest asked = request;
-  asked.follows = asked.follows && goes_over(robot_.follower.pieces()) && !unconnected_;
+  asked.follows = asked.follows && goes_over(robot_.follower.path().pieces()) && !unconnected_;
   asked.reserve = correction_.shifts() ? PathCorrection::kReserve : 0;
   asked.cells = request.unreserved ? nullptr : space_.cells_for_plan(desk_);
   asked.way = ways_.for_plan(desk_);

@@ -11,6 +11,7 @@
 #include "control/robot/group/axis_row.h"
 #include "control/robot/group/held_tool.h"
 #include "control/robot/group/parts.h"
+#include "control/robot/group/single_axes.h"
 #include "control/robot/group/states.h"
 #include "control/robot/group/travel.h"
 #include "control/robot/job/runner.h"
@@ -24,7 +25,7 @@ struct Robot {
         period(std::chrono::duration<double>(parts.settings.period).count()),
         tool(parts),
         axes(parts, table),
-        singles(parts, table, travel.seen()),
+        singles(parts, table, &travel.seen()),
         follower(tool.places(), parts.joints),
         job(parts.book) {}
   Robot(const Robot&) = delete;
@@ -48,6 +49,7 @@ struct Robot {
   AxisRow axes;
   Travel travel;
   AxisRow singles;
+  SingleAxes single{*this};  // what moves them
   GroupStates states;
   Follower follower;
   JobRunner job;

@@ -65,7 +65,7 @@ SpaceCells* SharedSpace::cells_for_plan(const PlanningDesk& desk) noexcept {
   };
   for (SpaceCells& cells : memory_.front().plans) {
     const bool followed = std::find(motions_.begin(), motions_.end(), &cells) != motions_.end();
-    if (!followed && !desk.uses(&cells) && !leads(robot_.follower.pieces(), &cells) &&
+    if (!followed && !desk.uses(&cells) && !leads(robot_.follower.path().pieces(), &cells) &&
         !leads(robot_.follower.kept_path().pieces, &cells) && !leads(*shelf_, &cells)) {
       return &cells;
     }
@@ -76,7 +76,7 @@ SpaceCells* SharedSpace::cells_for_plan(const PlanningDesk& desk) noexcept {
 // Returns whether the set points are on a motion that was granted.
 bool SharedSpace::is_granted(bool off_path) const noexcept {
   const GroupStates& states = robot_.states;
-  const PathPieces& path = robot_.follower.pieces();
+  const PathPieces& path = robot_.follower.path().pieces();
   const bool on_path = states.moving() || (states.stopping() && states.on_path());
   return on_path && !off_path && path.count > 0 && !robot_.axes.any_busy() && !robot_.axes.any_displaced() &&
          std::all_of(path.segments.begin(), path.segments.begin() + path.count,
@@ -178,7 +178,7 @@ bool SharedSpace::enters_others(bool counts) noexcept {
 
 // Motions that were followed and are no longer.
 void SharedSpace::note_motions() noexcept {
-  const PathPieces& path = robot_.follower.pieces();
+  const PathPieces& path = robot_.follower.path().pieces();
   std::array<const SpaceCells*, PathPieces::kMaxSegments> now{};
   for (int i = 0; i < path.count; ++i) {
     now[at(i)] = path.segments[at(i)].cells;

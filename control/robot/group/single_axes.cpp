@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/group/single_axes.h"
 
+#include "control/robot/group/robot.h"
+
 namespace indurop::robot {
+
+std::size_t SingleAxes::drive(int i) const noexcept {
+  return at(robot_.count() + i);
+}
+
+void SingleAxes::halt() noexcept {
+  robot_.singles.halt();
+}
 
 // Why all of them have to stop now; Ok: they do not.
 ErrorCode SingleAxes::stop_of_all(bool emergency) const noexcept {
@@ -47,7 +57,14 @@ void SingleAxes::serve(const Inputs& in, ErrorCode permit) noexcept {
   }
 }
 
+// The way of a stop counts, too. Drives that home, or have no power, move the arm on their own.
+void SingleAxes::measure_travel() noexcept {
+  const bool leads = robot_.states.powered() && !robot_.states.is(GroupState::Homing) && !robot_.axes.any_displaced();
+  robot_.travel.step(robot_.tool.arm(), robot_.axes.passed(), leads, robot_.period);
+}
+
 void SingleAxes::step(const Inputs& in, Outputs& out) noexcept {
+  measure_travel();
   robot_.singles.move();
   for (int i = 0; i < robot_.singles.count(); ++i) {
     pass(i);

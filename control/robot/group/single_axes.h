@@ -4,12 +4,15 @@
 
 #pragma once
 
+#include <indurop/robot/controller.h>
+
 #include <array>
 
-#include "control/robot/group/mode_guard.h"
-#include "control/robot/group/robot.h"
+#include "control/robot/kinematics/geometry.h"
 
 namespace indurop::robot {
+
+struct Robot;
 
 class SingleAxes {
  public:
@@ -24,18 +27,19 @@ class SingleAxes {
   void step(const Inputs& in, Outputs& out) noexcept;
   void report(Outputs& out) const noexcept;
   // Comes to rest, since the operating mode demands it.
-  void halt() noexcept { robot_.singles.halt(); }
+  void halt() noexcept;
 
  private:
-  [[nodiscard]] std::size_t drive(int i) const noexcept { return at(robot_.count() + i); }
+  [[nodiscard]] std::size_t drive(int i) const noexcept;
   [[nodiscard]] ErrorCode stop_of_all(bool emergency) const noexcept;
+  void measure_travel() noexcept;
   void fail_all(ErrorCode code) noexcept;
   void pass(int i) noexcept;
 
   Robot& robot_;
-  std::array<bool, kAxes> braking_{};      // by its gate
-  std::array<bool, kAxes> quick_stop_{};   // it loses its power once it rests
-  std::array<double, kAxes> hardness_{};   // factor on its acceleration while it stops
+  std::array<bool, kAxes> braking_{};     // by its gate
+  std::array<bool, kAxes> quick_stop_{};  // it loses its power once it rests
+  std::array<double, kAxes> hardness_{};  // factor on its acceleration while it stops
 };
 
 }  // namespace indurop::robot

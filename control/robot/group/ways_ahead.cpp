@@ -13,7 +13,7 @@ ToolWay* WaysAhead::for_plan(const PlanningDesk& desk, const ToolWay* taken) noe
                        [way](const Segment& segment) { return segment.way_ahead == way; });
   };
   auto* const free = std::find_if(ways_.begin(), ways_.end(), [&](const ToolWay& way) {
-    return &way != taken && !desk.uses(&way) && !leads(robot_.follower.pieces(), &way) &&
+    return &way != taken && !desk.uses(&way) && !leads(robot_.follower.path().pieces(), &way) &&
            !leads(robot_.follower.kept_path().pieces, &way) && !leads(*shelf_, &way);
   });
   if (free == ways_.end()) {
@@ -25,7 +25,7 @@ ToolWay* WaysAhead::for_plan(const PlanningDesk& desk, const ToolWay* taken) noe
 }
 
 void WaysAhead::report(bool known, Outputs& out) noexcept {
-  const PathPieces& path = robot_.follower.pieces();
+  const PathPieces& path = robot_.follower.path().pieces();
   out.ways = {};
   out.ways_changed = false;
   std::size_t count = 0;

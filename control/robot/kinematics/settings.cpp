@@ -201,8 +201,7 @@ std::vector<WrongSetting> check_settings(const Settings& settings) {
   return wrong;
 }
 
-std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm, bool weighed,
-                                     std::size_t singles) {
+std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm, bool weighed, std::size_t singles) {
   Wrong wrong;
   const auto count = static_cast<std::size_t>(arm.count());
   const std::size_t all = count + singles;

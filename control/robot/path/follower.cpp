@@ -109,24 +109,6 @@ double Follower::to_go() const noexcept {
   return idle() ? 0 : std::max(0.0, profile_.duration() - time_);
 }
 
-double Follower::tool_speed_at(double seconds) const noexcept {
-  constexpr double kStep = 0.002;  // s
-  if (idle()) {
-    return 0;
-  }
-  const double rate = path_.segment().timed ? 1 : path_.piece_limits().velocity;
-  const double left = path_.left();
-  const double by = std::min(rate * kStep, left);
-  const double ahead = std::min(path_.state().velocity * seconds, left - by);
-  Joints one, other;
-  if (!(by > 0) || path_.joints_ahead(ahead, q_, one) != Reach::Ok ||
-      path_.joints_ahead(ahead + by, one, other) != Reach::Ok) {
-    return 0;
-  }
-  const Arm& arm = places_.arm();
-  return (arm.forward(other).position - arm.forward(one).position).norm() * rate / by;
-}
-
 double Follower::wanted_pace() const noexcept {
   const double allowed = joint_motions_.pace_for(path_.segment().tip_speed);
   return mode_ == Mode::Run && override_ >= kStill ? std::min(override_, allowed) : 0;

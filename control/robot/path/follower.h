@@ -65,14 +65,12 @@ class Follower {
   [[nodiscard]] bool at_rest() const noexcept { return idle() || path_.state().velocity <= 0; }
   // Part of full speed.
   [[nodiscard]] double speed() const noexcept { return idle() ? 0 : speed_; }
-  // Returns the speed of the tool in m/s that full speed is here, or where it will be in `seconds`; 0: it is not known.
-  [[nodiscard]] double tool_speed_at(double seconds) const noexcept;
   // Returns the time to the end of the present path at the present conditions, in s.
   [[nodiscard]] double to_go() const noexcept;
   // Returns the place on the present motion.
   [[nodiscard]] PathPlace path_place() const noexcept { return path_.place(to_go()); }
-  // The segments that remain to be followed.
-  [[nodiscard]] const PathPieces& pieces() const noexcept { return path_.pieces(); }
+  // The path that remains to be followed.
+  [[nodiscard]] const FollowedPath& path() const noexcept { return path_; }
   // Returns MoveCommand::source of the present path; 0: none.
   [[nodiscard]] int source() const noexcept { return path_.source(); }
 

@@ -55,8 +55,8 @@ enum class Service : std::int32_t {
   // By requests only: the job files are read again.
   JobReload,
   // By commands.
-  TrackBelt,    // the product moves with belt `option`, along x of `to`, starting from `aux` in it
-  TrackTable,   // the same about z of `to`
+  TrackBelt,     // the product moves with belt `option`, along x of `to`, starting from `aux` in it
+  TrackTable,    // the same about z of `to`
   FreeAbsolute,  // around obstacles; `aux`: seed of the search, and s that it may take at most, 0: 10
   // The path follows single axis `option`, or belt `job`: to[0] / to[1] mm for each mm or degree of it; to[2]: mm that
   // it may be behind or ahead, 0: any distance.

@@ -78,7 +78,7 @@ TEST_F(FollowMaster, Waits_where_the_master_turned_back) {
   EXPECT_EQ(way, waits);
   EXPECT_FALSE(reached(sut));
   give(kFeeder, AxisService::MoveVelocity, 0, 100);
-  ASSERT_TRUE(until([&] { return cell.out.command[kAt] > turned - 10; }));
+  ASSERT_TRUE(until([&] { return cell.out.command[kAt] > turned - 20; }));
   EXPECT_NEAR(way, waits, 1e-6);
   ASSERT_TRUE(until([&] { return way > waits + 30; }));
   EXPECT_TRUE(reached(sut));
@@ -193,8 +193,8 @@ TEST_F(FollowMaster, Rejects_what_makes_no_sense) {
   rejected(lead(1), ErrorCode::Master);
 }
 
-// A master that stands, runs at up to full speed, turns back, jumps (a belt) and is lost, while motions are given, held,
-// slowed down and stopped.
+// A master that stands, runs at up to full speed, turns back, jumps (a belt) and is lost, while motions are given,
+// held, slowed down and stopped.
 class RandomMaster : public SyncedCell {
  public:
   RandomMaster(unsigned seed, double period_ms)
@@ -215,10 +215,10 @@ class RandomMaster : public SyncedCell {
       in_step += sut_.number != 0 && state(sut_) == CommandState::Active && reached(sut_) && gone > 0 ? 1 : 0;
       if (cell.out.state == GroupState::ErrorStop) {
         ++stops;
-        EXPECT_THAT(cell.out.error, testing::AnyOf(ErrorCode::Belt, ErrorCode::Master, ErrorCode::Speed,
-                                                   ErrorCode::State))
+        EXPECT_THAT(cell.out.error,
+                    testing::AnyOf(ErrorCode::Belt, ErrorCode::Master, ErrorCode::Speed, ErrorCode::State))
             << "no other fault, above all none that the last gate found; " << cell.out.job.message;
-        ASSERT_TRUE(cell.serve(Service::GroupReset));
+        ASSERT_TRUE(reset_group());
         silent_ = false;
       }
     }
@@ -254,7 +254,8 @@ class RandomMaster : public SyncedCell {
       case 9:
       case 10: {
         const bool belt = one_of(2) == 0;
-        sut_ = give(Service::FollowMaster, {in(0.1, 2) * (one_of(6) == 0 ? -1 : 1), 1, one_of(3) == 0 ? in(20, 300) : 0});
+        sut_ =
+            give(Service::FollowMaster, {in(0.1, 2) * (one_of(6) == 0 ? -1 : 1), 1, one_of(3) == 0 ? in(20, 300) : 0});
         command(sut_).option = belt ? 0 : kFeeder;
         command(sut_).job = belt ? 1 : 0;
         break;

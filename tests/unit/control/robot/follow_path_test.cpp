@@ -172,11 +172,12 @@ TEST_F(SlowFeeder, Leaves_a_tool_that_is_too_fast_for_it_and_stops_before_its_en
   EXPECT_THAT(error(sut), testing::AnyOf(ErrorCode::Speed, ErrorCode::Acceleration, ErrorCode::Jerk));
   ASSERT_TRUE(until([&] { return ended(fast); }));
   EXPECT_EQ(state(fast), CommandState::Done) << "the tool goes on";
-  const Given home = give(kFeeder, AxisService::MoveAbsolute, 250);
+  const Given home = give(kFeeder, AxisService::MoveAbsolute, 270);
   ASSERT_TRUE(until([&] { return ended(home); }));
-  const Given again = follow(0.2);
+  const Given again = follow(0.1);
   ASSERT_TRUE(until([&] { return reached(again); }));
   const Given far = line(500, 300, 400, 100);
+  ASSERT_TRUE(until([&] { return ended(again); }));
   ASSERT_TRUE(until([&] { return ended(far); }, 4000));
   EXPECT_EQ(error(again), ErrorCode::JointLimit);
   EXPECT_LE(cell.out.command[kAt], 300);

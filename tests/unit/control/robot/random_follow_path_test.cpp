@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A single axis follows the tool on random paths that are held, slowed down, replaced and stopped at random: each of its
-// steps is the ratio times the distance that orocos-kdl computes from the set points of the arm, and no set point of any
-// axis breaks a limit. INDUROP_ROBOT_SYNCS says how many random runs, INDUROP_ROBOT_SEED from which one on.
+// A single axis follows the tool on random paths that are held, slowed down, replaced and stopped at random: each of
+// its steps is the ratio times the distance that orocos-kdl computes from the set points of the arm, and no set point
+// of any axis breaks a limit. INDUROP_ROBOT_SYNCS says how many random runs, INDUROP_ROBOT_SEED from which one on.
 #include <fmt/format.h>
 
 #include <random>
@@ -26,7 +26,7 @@ class RandomFollowers : public SyncedCell {
       step_and_compare();
       // A fault of the path itself, a singular position for example, is not the topic here.
       if (cell.out.state == GroupState::ErrorStop) {
-        ASSERT_TRUE(cell.serve(Service::GroupReset));
+        ASSERT_TRUE(reset_group());
         synced_ = false;
       }
     }
@@ -46,8 +46,8 @@ class RandomFollowers : public SyncedCell {
     synced_ = sut_.number != 0 && reached(sut_) && state(sut_) == CommandState::Active;
     if (sut_.number != 0 && state(sut_) == CommandState::Error) {
       ++errors;
-      EXPECT_THAT(error(sut_), testing::AnyOf(ErrorCode::Speed, ErrorCode::Acceleration, ErrorCode::Jerk,
-                                              ErrorCode::Master));
+      EXPECT_THAT(error(sut_),
+                  testing::AnyOf(ErrorCode::Speed, ErrorCode::Acceleration, ErrorCode::Jerk, ErrorCode::Master));
       sut_ = {};
     }
     if (was && synced_) {

@@ -23,11 +23,11 @@ inline std::string with_feeder(std::string urdf, double velocity = 10, const std
   const std::string base = urdf.substr(root, urdf.find('"', root) - root);
   const std::string lower = range.substr(0, range.find(' '));
   const std::string upper = range.substr(range.find(' ') + 1);
-  const std::string feeder = fmt::format(
-      R"(<link name="wire"/><joint name="feeder" type="prismatic"><parent link="{}"/><child link="wire"/>)"
-      R"(<axis xyz="0 0 1"/><limit lower="{}" upper="{}" velocity="{}" effort="1"/></joint>)"
-      R"(<single_axes joints="feeder"/>)",
-      base, lower, upper, velocity);
+  const std::string feeder =
+      fmt::format(R"(<link name="wire"/><joint name="feeder" type="prismatic"><parent link="{}"/><child link="wire"/>)"
+                  R"(<axis xyz="0 0 1"/><limit lower="{}" upper="{}" velocity="{}" effort="1"/></joint>)"
+                  R"(<single_axes joints="feeder"/>)",
+                  base, lower, upper, velocity);
   return urdf.insert(urdf.rfind("</robot>"), feeder);
 }
 
@@ -56,9 +56,15 @@ class SyncedCell : public CommandCell {
   }
   // The tool stands in front of the arm.
   [[nodiscard]] bool go_to_begin() {
-    const Given there = give(Service::DirectAbsolute, {500, 100, 400, 180, 0, 180}, 0, BufferMode::Aborting,
-                             CoordSystem::Machine);
-    return until([&] { return ended(there); }) && state(there) == CommandState::Done;
+    const Given there =
+        give(Service::DirectAbsolute, {500, 100, 400, 180, 0, 180}, 0, BufferMode::Aborting, CoordSystem::Machine);
+    const bool arrived = until([&] { return ended(there); }) && state(there) == CommandState::Done;
+    way = 0;
+    return arrived;
+  }
+  [[nodiscard]] bool reset_group() {
+    cell.ask(Service::GroupReset);
+    return until([&] { return cell.out.done == cell.in.service.number; }) && cell.out.error == ErrorCode::Ok;
   }
   // The hardness of a stop in progress is allowed for.
   void step(double hardness = 1) {
