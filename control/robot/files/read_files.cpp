@@ -119,14 +119,6 @@ Diagnostics check_space(const FileNames& names, const JobBook& book, const Arm& 
   return errors;
 }
 
-ArmShape shape_of(const Arm& arm) {
-  ArmShape shape{arm.count(), {}};
-  for (int i = 0; i < arm.count(); ++i) {
-    shape.slides[static_cast<std::size_t>(i)] = arm.axis(i).slides();
-  }
-  return shape;
-}
-
 // Speeds above the limit are no danger: lines then run at full speed.
 Diagnostics check_speeds(const JobBook& book, double most) {
   Diagnostics warnings;
@@ -184,6 +176,14 @@ void sort_out(Diagnostics said, ReadFiles& read) {
 }
 
 }  // namespace
+
+ArmShape shape_of(const Arm& arm) {
+  ArmShape shape{arm.count(), {}};
+  for (int i = 0; i < arm.count(); ++i) {
+    shape.slides[static_cast<std::size_t>(i)] = arm.axis(i).slides();
+  }
+  return shape;
+}
 
 ReadFiles read_files(const FileNames& names) {
   ReadFiles read;

@@ -24,4 +24,7 @@ struct ReadFiles {
 };
 ReadFiles read_files(const FileNames& names);
 
+// What job files need to know of the arm.
+ArmShape shape_of(const Arm& arm);
+
 }  // namespace indurop::robot

@@ -3,11 +3,11 @@
 
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
 #include "control/robot/files/files.h"
+#include "control/robot/files/stand.h"
 
 namespace indurop::robot {
 
@@ -23,13 +23,6 @@ struct ListedPoints {
   std::vector<base::Diagnostic> errors;  // of the files; if empty, the others are valid
 };
 ListedPoints list_points(const FileNames& names);
-
-// The present position of the robot.
-struct Stand {
-  std::vector<double> joints;           // deg, of sliding axes mm; at least as many as the arm has
-  std::array<double, 3> position{};     // mm, of the tip in the base
-  std::array<double, 3> orientation{};  // deg, roll pitch yaw
-};
 
 struct TeachOrder {
   std::string point;

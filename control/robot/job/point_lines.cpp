@@ -28,6 +28,15 @@ std::size_t comment_of(std::string_view line) {
   return at;
 }
 
+// A line of the text, from 1.
+std::string_view line_in(std::string_view text, int line) {
+  std::size_t begin = 0;
+  for (int at = 1; at < line && begin < text.size(); ++at) {
+    begin = std::min(text.find('\n', begin), text.size() - 1) + 1;
+  }
+  return text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin);
+}
+
 }  // namespace
 
 std::string joint_text(const Arm& arm, const Joints& joints) {
@@ -72,22 +81,28 @@ Pose seen_from(const Pose& frame, const Pose& pose) {
 WithPoint put_point(std::string_view text, int line, std::string_view name, std::string_view place) {
   std::string statement = "POINT ";
   statement.append(name).append(" = ").append(place);
+  return put_statement(text, line, statement);
+}
+
+std::string_view statement_in(std::string_view text, int line) {
+  const std::string_view whole = line_in(text, line);
+  const std::size_t indented = std::min(whole.find_first_not_of(" \t"), whole.size());
+  return whole.substr(indented, std::max(comment_of(whole), indented) - indented);
+}
+
+WithPoint put_statement(std::string_view text, int line, std::string_view statement) {
   if (line == 0) {
     WithPoint out{std::string(text), 0};
     out.text += !text.empty() && text.back() != '\n' ? "\n" : "";
-    out.text += statement + '\n';
+    out.text.append(statement) += '\n';
     out.line = static_cast<int>(std::count(out.text.begin(), out.text.end(), '\n'));
     return out;
   }
-  std::size_t begin = 0;
-  for (int at = 1; at < line && begin < text.size(); ++at) {
-    begin = std::min(text.find('\n', begin), text.size() - 1) + 1;
-  }
-  const std::string_view old = text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin);
-  const std::size_t indented = std::min(old.find_first_not_of(" \t"), old.size());
-  std::string out(text.substr(0, begin + indented));
+  const std::string_view old = statement_in(text, line);
+  const auto begin = static_cast<std::size_t>(old.data() - text.data());
+  std::string out(text.substr(0, begin));
   out += statement;
-  out += text.substr(begin + std::max(comment_of(old), indented));
+  out += text.substr(begin + old.size());
   return {std::move(out), line};
 }
 

@@ -31,5 +31,9 @@ struct WithPoint {
 };
 // Returns the text with "POINT name = place" in line `line`, whose comment stays, or at the end if `line` is 0.
 WithPoint put_point(std::string_view text, int line, std::string_view name, std::string_view place);
+// The same with any statement.
+WithPoint put_statement(std::string_view text, int line, std::string_view statement);
+// Returns the statement in a line of the text, from 1, without its comment.
+std::string_view statement_in(std::string_view text, int line);
 
 }  // namespace indurop::robot

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <sstream>
 
+#include "control/robot/kinematics/fit_words.h"
+
 namespace indurop::robot {
 
 namespace {
 
 constexpr double kLeastWidth = 0.005;  // m, mean distance of the places from a line
-constexpr double kMostError = 0.01;    // m
 
 std::string shown_mm(double metres) {
   std::ostringstream text;
@@ -55,8 +56,8 @@ FrameFit fit_frame(std::span<const MatchedPlace> places) {
       fit.worst = i;
     }
   }
-  if (fit.most_error > kMostError) {
-    fit.wrong = "its places do not match: one is " + shown_mm(fit.most_error) + " off, " + shown_mm(kMostError) +
+  if (fit.most_error > kMostCameraError) {
+    fit.wrong = "its places do not match: one is " + shown_mm(fit.most_error) + " off, " + shown_mm(kMostCameraError) +
                 " is the most; touch that one again, and check what the camera says";
   }
   return fit;

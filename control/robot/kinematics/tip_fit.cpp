@@ -4,14 +4,11 @@
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "control/robot/kinematics/fit_words.h"
+
 namespace indurop::robot {
 
 namespace {
-
-// Minimum of the smallest of the three singular values of the differences between orientations: below it, an error of
-// one mm at the place would be one of 12 mm at the tip. Three points that differ by 30 degrees about two axes have 0.1.
-constexpr double kLeastTurned = 0.08;
-constexpr double kLargestError = 0.005;  // m
 
 std::string millimetres(double metres) {
   const double rounded = std::round(metres * 1e4) / 10;
@@ -43,14 +40,13 @@ TipFit fit_tip(std::span<const Pose> ends) {
     turns.middleRows<3>(3 * i) = end.orientation.toRotationMatrix() - mean_turn;
     places.segment<3>(3 * i) = mean_place - end.position;
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(turns, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  if (!(svd.singularValues()[2] / std::sqrt(static_cast<double>(count)) > kLeastTurned)) {
+  if (!turned_enough(ends)) {
     fit.wrong =
         "its points are turned too little, or all about one axis; touch the place from directions that differ by 30 "
         "degrees or more, about two axes";
     return fit;
   }
-  fit.tip = svd.solve(places);
+  fit.tip = turns.jacobiSvd(Eigen::ComputeThinU | Eigen::ComputeThinV).solve(places);
   const Vec3 touched = mean_turn * fit.tip + mean_place;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const double error = (ends[i].position + ends[i].orientation * fit.tip - touched).norm();
@@ -60,7 +56,7 @@ TipFit fit_tip(std::span<const Pose> ends) {
       fit.worst = i;
     }
   }
-  if (fit.most_error > kLargestError) {
+  if (fit.most_error > kMostTipError) {
     fit.wrong = "its points do not touch one place: one is " + millimetres(fit.most_error) +
                 " off, 5 mm is the most; teach that one again";
   }
