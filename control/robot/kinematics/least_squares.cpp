@@ -7,17 +7,17 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kStep = 1e-6;      // m and rad, of derivatives
-constexpr double kSettled = 1e-11;  // m and rad, of a change that is none
-constexpr double kAlmost = 1e-9;    // the same, if rounding prevents smaller ones
+constexpr double kDifference = 1e-6;  // m and rad, of derivatives
+constexpr double kNoChange = 1e-11;   // m and rad, of a change that is none
+constexpr double kHardlyAny = 1e-9;   // the same, if rounding prevents smaller ones
 constexpr int kMostRounds = 60;
-constexpr double kDependent = 1e-9;  // smallest singular value, of the largest one
+constexpr double kLeastWidthRatio = 1e-9;  // smallest singular value, of the largest one
 
 Eigen::MatrixXd derivatives(const Unknowns& at, const Deviations& deviations, Eigen::Index rows) {
   Eigen::MatrixXd out(rows, at.count());
   for (Eigen::Index i = 0; i < at.count(); ++i) {
-    const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(at.count(), i);
-    out.col(i) = (deviations(at.moved(step)) - deviations(at.moved(-step))) / (2 * kStep);
+    const Eigen::VectorXd step = kDifference * Eigen::VectorXd::Unit(at.count(), i);
+    out.col(i) = (deviations(at.moved(step)) - deviations(at.moved(-step))) / (2 * kDifference);
   }
   return out;
 }
@@ -48,11 +48,11 @@ LeastSquares least_squares(const Unknowns& start, const Deviations& deviations) 
     return out;
   }
   double change = 1;
-  for (int round = 0; round < kMostRounds && change > kSettled; ++round) {
+  for (int round = 0; round < kMostRounds && change > kNoChange; ++round) {
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(derivatives(out.found, deviations, out.rest.size()),
                                                 Eigen::ComputeThinU | Eigen::ComputeThinV);
     const Eigen::VectorXd& widths = svd.singularValues();
-    if (!(widths[widths.size() - 1] > kDependent * widths[0])) {
+    if (!(widths[widths.size() - 1] > kLeastWidthRatio * widths[0])) {
       return out;
     }
     const Eigen::VectorXd by = svd.solve(-out.rest);
@@ -62,7 +62,7 @@ LeastSquares least_squares(const Unknowns& start, const Deviations& deviations) 
     const Eigen::MatrixXd scaled = svd.matrixV() * widths.cwiseInverse().asDiagonal();
     out.cofactor = scaled * scaled.transpose();
   }
-  out.settled = change < kAlmost;
+  out.settled = change < kHardlyAny;
   return out;
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "tools/cli/command/verb.h"
-#include "tools/cli/robot/robot_desk.h"
+#include "tools/client/robot/robot_desk.h"
 
 namespace indurop::tools {
 

@@ -30,22 +30,32 @@ int show_points(Context& context, const RobotChoice& choice) {
   return kOk;
 }
 
+int place_to_write(Context& context, const RobotChoice& choice, RobotPlace& to) {
+  const auto store = open_store(context, vars::Mode::ReadOnly);
+  if (!store) {
+    return report(context.out, store.error());
+  }
+  auto place = read_place(*store, choice.space);
+  if (!place) {
+    context.out.error(place.error().text);
+    return kFailed;
+  }
+  if (place->moves) {
+    context.out.error("the robot moves: teach at standstill");
+    return kFailed;
+  }
+  to = std::move(place).value();
+  return kOk;
+}
+
 int teach_point(Context& context, const RobotChoice& choice, const robot::TeachOrder& order) {
   const auto files = files_of_node(context.node, choice, true);
   if (!files) {
     return report(context.out, files.error());
   }
-  const auto store = open_store(context, vars::Mode::ReadOnly);
-  if (!store) {
-    return report(context.out, store.error());
-  }
   RobotPlace place;
-  if (const int code = read_place(context, *store, choice, place); code != kOk) {
+  if (const int code = place_to_write(context, choice, place); code != kOk) {
     return code;
-  }
-  if (place.moves) {
-    context.out.error("the robot moves: teach at standstill");
-    return kFailed;
   }
   const robot::TaughtPoint taught = robot::teach_point(files->names, order, place.stand);
   if (!taught.errors.empty() || !taught.problem.empty()) {

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop robot: shows and teaches points, jogs the robot, and answers the questions of its jobs.
+#include <sstream>
+
+#include "core/base/word_values.h"
+#include "tools/cli/robot/calibrating.h"
 #include "tools/cli/robot/hand.h"
 #include "tools/cli/robot/identifying.h"
 #include "tools/cli/robot/questions.h"
@@ -11,9 +15,26 @@
 namespace indurop::tools {
 namespace {
 
+// Parses "10,20.5"; returns what is wrong, else an empty string.
+std::string numbers_in(const std::string& text, std::vector<double>& to) {
+  std::istringstream all(text);
+  to.clear();
+  for (std::string word; std::getline(all, word, ',');) {
+    const auto number = base::number_in(word);
+    if (!number) {
+      return "'" + word + "' is not a number; write x,y or x,y,z, or x,y,z,roll,pitch,yaw";
+    }
+    to.push_back(*number);
+  }
+  return {};
+}
+
 struct RobotOptions {
   RobotChoice choice;
   robot::TeachOrder order;
+  robot::CalibrationOrder calibration;
+  CalibrationAct act;
+  std::string kind;
   Hand hand{"", "base"};
   RobotAnswer answer;
   std::string recording;
@@ -96,6 +117,44 @@ void declare_identify(base::Options& app, Context& context, RobotOptions& option
   add_format_option(command, context, {Format::Table, Format::Json, Format::Csv});
 }
 
+void declare_calibrate(base::Options& app, Context& context, RobotOptions& options) {
+  base::Options& command =
+      app.command("calibrate", "Find a tool, a frame or a camera from what the robot touches", [&options] {
+        options.chosen = [&options](Context& c) {
+          options.calibration.kind = *robot::calibration_kind(options.kind);
+          return calibrate(c, options.choice, options.calibration, options.act);
+        };
+      });
+  CalibrationAct& act = options.act;
+  command.add("kind", "tool|frame|camera|hand-camera", options.kind, "What to calibrate; hand-camera: one on the arm")
+      .required()
+      .choices({"tool", "frame", "camera", "hand-camera"});
+  command
+      .add("name", "NAME", options.calibration.name,
+           "Name of the tool or frame; a camera is a frame, on the arm a tool")
+      .required();
+  command.flag("--take", act.take, "Add the current position of the robot to the points");
+  command.add("--mark", "MARK", act.taken.mark,
+              "What it touches: TIP, X, XZ; ORIGIN, X, XY; SEEN (default: what is missing)");
+  command.add(
+      "--seen", "X,Y[,Z[,R,P,Y]]", [&act](const std::string& text) { return numbers_in(text, act.taken.seen); },
+      "Where the camera saw it, in mm and degrees");
+  command.add("--drop", "POINT", act.drop, "Remove this point, from 1").range(1, 1000);
+  command.flag("--drop-all", act.drop_all, "Remove all points");
+  command.flag("--accept", act.accept,
+               "Declare the result in the files of the robot; what was before stays as a comment");
+  command
+      .add("--points", "FILE", options.calibration.points,
+           "File with the points (default: NAME.KIND.points, next to the first job file)")
+      .completes(base::Completion::File);
+  command
+      .add("--file", "FILE", options.calibration.file, "File of a new declaration (default: the one with most points)")
+      .completes(base::Completion::File);
+  add_choice(command, context, options);
+  add_files(command, options);
+  add_format_option(command, context, {Format::Table, Format::Json, Format::Csv});
+}
+
 void declare_question(base::Options& app, Context& context, RobotOptions& options) {
   base::Options& command = app.command("question", "Show the question that the job asks the operator", [&options] {
     options.chosen = [&options](Context& c) { return show_question(c, options.choice, options.wait_ns); };
@@ -128,6 +187,7 @@ Action declare_robot(base::Options& app, Context& context) {
   declare_reload(app, context, *options);
   declare_jog(app, context, *options);
   declare_identify(app, context, *options);
+  declare_calibrate(app, context, *options);
   declare_question(app, context, *options);
   declare_answer(app, context, *options);
   return [options](Context& c) { return options->chosen(c); };
@@ -149,7 +209,9 @@ const Verb kRobotVerb{
     "  indurop robot reload\n"
     "  indurop robot points\n"
     "  indurop robot answer left\n"
-    "  indurop robot identify swing.mcap --config module.xml\n",
+    "  indurop robot identify swing.mcap --config module.xml\n"
+    "  indurop robot calibrate tool pen --take\n"
+    "  indurop robot calibrate tool pen --accept\n",
     &declare_robot};
 
 }  // namespace indurop::tools

@@ -5,11 +5,11 @@
 
 #include <string>
 
-#include "control/robot/files/teach.h"
-#include "tools/cli/command/verb.h"
+#include "control/robot/files/stand.h"
+#include "core/base/problem.h"
+#include "store/vars/store.h"
 #include "tools/client/failure.h"
 #include "tools/client/robot/robot_files.h"
-#include "tools/client/values/variables.h"
 
 namespace indurop::tools {
 
@@ -24,8 +24,8 @@ struct RobotPlace {
   std::string tool;  // empty: none
   bool moves = false;
 };
-// Reads the current place of the robot. Returns the exit code, after an error message.
-int read_place(Context& context, const vars::Store& store, const RobotChoice& choice, RobotPlace& to);
+// Reads the current place of the robot with these variables.
+Result<RobotPlace, base::Problem> read_place(const vars::Store& store, const std::string& space);
 
 // Returns the files that the node's robot reads. Failures: no node, no robot in it, several and none chosen, files of a
 // deployment (`to_change`: they are copies, which the next deployment replaces).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/robot/robot_desk.h"
+#include "tools/client/robot/robot_desk.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "config/xml/plant_reader.h"
+#include "store/operate/item.h"
 #include "tools/client/config/checked_config.h"
 #include "tools/client/node/node_choice.h"
 
@@ -54,23 +55,19 @@ Result<RobotFiles, Failure> chosen_of(std::vector<RobotFiles> robots, const Robo
 
 }  // namespace
 
-int read_place(Context& context, const vars::Store& store, const RobotChoice& choice, RobotPlace& to) {
-  std::vector<std::string> names;
-  for (const char* part : {"joint", "speed", "position", "orientation", "tool"}) {
-    names.push_back(fmt::format("{}::ROBOT_ARM.{}", choice.space, part));
-  }
-  std::vector<Item> items;
-  if (const int code = select_items(context, store, names, items); code != kOk) {
-    return code;
-  }
+Result<RobotPlace, base::Problem> read_place(const vars::Store& store, const std::string& space) {
+  RobotPlace to;
   std::vector<std::vector<std::uint8_t>> values;
-  for (const Item& item : items) {
-    auto bytes = operate::read(store, item);
-    if (!bytes) {
-      context.out.error(bytes.error().text);
-      return kFailed;
+  for (const char* part : {"joint", "speed", "position", "orientation", "tool"}) {
+    const auto item = operate::find(store, fmt::format("{}{}ROBOT_ARM.{}", space, space.empty() ? "" : "::", part));
+    if (!item) {
+      return item.error();
     }
-    values.push_back(std::move(*bytes));
+    auto bytes = operate::read(store, *item);
+    if (!bytes) {
+      return bytes.error();
+    }
+    values.push_back(std::move(bytes).value());
   }
   to.stand.joints = numbers_of(values[0]);
   for (const auto& [bytes, place] : {std::pair(&values[2], &to.stand.position), {&values[3], &to.stand.orientation}}) {
@@ -82,7 +79,7 @@ int read_place(Context& context, const vars::Store& store, const RobotChoice& ch
   to.tool = to.tool == "FLANGE" ? "" : to.tool;
   const auto speed = numbers_of(values[1]);
   to.moves = std::any_of(speed.begin(), speed.end(), [](double one) { return std::abs(one) > 1e-6; });
-  return kOk;
+  return to;
 }
 
 Result<RobotFiles, Failure> files_of_node(const std::string& node, const RobotChoice& choice, bool to_change) {
