@@ -426,6 +426,23 @@ export interface Robot {
   name?: string;  // added by the page, from the text
 }
 
+export interface Calibration {
+  points: { mark: string; place: string; seen: string; off: number | null }[];  // off: mm
+  wrong: string;  // why there is no result; empty: there is one
+  next: string;
+  next_mark: string;
+  declaration: string;
+  before: string;
+  rms: number;  // mm, as the next one
+  most: number;
+  worst: number;  // from 1; 0: no result
+  spare: number;
+  turned: boolean;
+  place_deviation: number[];  // mm
+  turn_deviation: number[];  // deg
+  scale: number;
+}
+
 export interface CaptureLine {
   name: string;
   channel: string;

@@ -3,7 +3,7 @@
 
 export const GROUP_STATES = ["disabled", "standby", "moving", "homing", "stopping", "error stop"];
 export const JOB_STATES = ["idle", "running", "waiting", "ended", "failed", "paused"];
-export const SERVICE = { enable: 1, reset: 3, stop: 10, job_stop: 12 };  // OPCODE_ROBOT_SERVICE
+export const SERVICE = { enable: 1, reset: 3, stop: 10, job_stop: 12, job_reload: 26 };  // OPCODE_ROBOT_SERVICE
 
 // The name that a .glb file gives an error, "ROBOT_ERR_JOINT_LIMIT"; empty: none.
 export function name_of_error(error: number, enumerators: Record<string, number> | undefined): string {

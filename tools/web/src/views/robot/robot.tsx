@@ -10,6 +10,7 @@ import { colours_changed } from "../../shell/theme";
 import { address, change_query, place } from "../../ui/address";
 import { Fact, DataTable, Waiting } from "../../ui/parts";
 import { useRequest, useStore } from "../../ui/store";
+import { Calibration } from "./calibration";
 import { Jog } from "./jog";
 import { Question } from "./question";
 import type { Scene } from "./scene";
@@ -146,6 +147,7 @@ function in_urdf(values: number[], kinds: string[]): number[] {
 export function Robot() {
   const board = useBoard();
   const may_operate = useMay("operate");
+  const may_tune = useMay("tune");
   const chosen = Number(useStore(place).query.get("r")) || 0;
   const { value, error } = useRequest(board ? `${board.board} ${board.layout}` : "", 0, () => fetch_robots(board!.board));
   const count = Math.max(value?.robots.length ?? 0, value?.scopes.length ?? 0);
@@ -219,6 +221,7 @@ export function Robot() {
         <div>
         {scope !== null && <Question board={board.board} scope={scope} down={down} may_answer={may_operate} />}
         {may_operate && scope !== null && <Jog board={board.board} scope={scope} state={state} down={down} names={names} work_frames={robot?.frames ?? []} />}
+        {may_tune && scope !== null && robot && <Calibration board={board.board} module={robot.module} scope={scope} state={state} down={down} work_frames={robot.frames} />}
         <section class="panel" aria-label="Robot in numbers">
           <h2>{down ? "Last values" : "Current values"}</h2>
           {state ? <Numbers state={state} names={names} down={down} /> : <Waiting />}
