@@ -19,6 +19,8 @@ class CollisionsAhead {
   // Checks the set points that are about to be sent. `off_path`: something moves them away from the planned path.
   // Errors: Collision. Real-time safe, like all functions of this class.
   Fault step(bool off_path) noexcept;
+  // Returns whether step() would refuse these set points, as something moves them away from the planned path.
+  [[nodiscard]] Fault foresee() noexcept;
   // Calls add(vector) for the memory that changes, see KeptImage.
   template <class Add>
   void blocks(const Add& add) {
@@ -33,7 +35,10 @@ class CollisionsAhead {
   }
 
  private:
+  [[nodiscard]] bool is_needed() const noexcept;
   [[nodiscard]] Fault check() noexcept;
+  [[nodiscard]] Fault advance(CollisionCheck& way) const noexcept;
+  [[nodiscard]] Fault rest(CollisionCheck& way) const noexcept;
 
   const Robot& robot_;
   CollisionCheck clear_, to_rest_;  // up to the last set point, and for a way to rest

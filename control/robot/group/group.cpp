@@ -18,11 +18,12 @@ Group::Group(GroupParts parts)
       conveyor_(robot_, *this, plans_),
       queue_(robot_, *this, plans_, conveyor_),
       jogging_(robot_, *this, plans_),
-      gate_(robot_, *this, mode_, space_, {conveyor_, correction_}),
+      guiding_(robot_, *this, torques_),
+      gate_(robot_, *this, mode_, space_, {conveyor_, correction_, guiding_}),
       power_(robot_, *this, torques_),
-      stops_(robot_, *this, gate_, {conveyor_, correction_}, power_),
-      job_motions_(robot_, plans_, resuming_, shelf_, torques_, {conveyor_, correction_}),
-      services_(robot_, *this, {plans_, resuming_, conveyor_, queue_, mode_, stops_, power_, job_motions_}),
+      stops_(robot_, *this, gate_, {conveyor_, correction_, guiding_}, power_),
+      job_motions_(robot_, plans_, resuming_, shelf_, torques_, {conveyor_, correction_, guiding_}),
+      services_(robot_, *this, {plans_, resuming_, conveyor_, guiding_, queue_, mode_, stops_, power_, job_motions_}),
       service_(robot_, *this, plans_, services_),
       answers_(robot_.job),
       overrides_(robot_, *this, conveyor_, correction_),
@@ -53,6 +54,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
   }
   answers_.serve(in.answer);
   jogging_.step(in.jog, mode_.permits_jogging());
+  guiding_.step(in, mode_);
   overrides_.step(in, queue_.interrupted(), mode_, jogging_.on());
   robot_.job.set_pauses(in.single_step, in.breakpoints);
   plans_.expect_work(robot_.states.powered());
@@ -148,6 +150,7 @@ void Group::end_motion() noexcept {
   robot_.states.end_motion();
   queue_.end_interrupt(ErrorCode::Ok);
   jogging_.end();
+  guiding_.end();
   robot_.axes.end_group_motion();
 }
 
@@ -169,6 +172,7 @@ void Group::report(Outputs& out) noexcept {
   out.error = states.error();
   out.error_axis = static_cast<std::uint32_t>(states.error_axis());
   out.mode = mode_.mode();
+  out.guided = guiding_.on();
   out.may_move = mode_.permit() == ErrorCode::Ok;
   out.tool = static_cast<std::uint32_t>(robot_.tool.number());
   out.tool_name = robot_.tool.tool().name.c_str();

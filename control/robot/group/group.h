@@ -10,6 +10,7 @@
 #include "control/robot/group/command_desk.h"
 #include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/group_port.h"
+#include "control/robot/group/guiding.h"
 #include "control/robot/group/interrupt_shelf.h"
 #include "control/robot/group/job_motions.h"
 #include "control/robot/group/jogging.h"
@@ -67,6 +68,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   void take_plan() noexcept;
   void note_lines(const Plan& plan) noexcept;
   void follow_path() noexcept;
+  void follow_hand() noexcept;
   void motion_failed(const Fault& fault, int source, std::uint32_t ticket) noexcept;
   void end_motions() noexcept;
 
@@ -106,6 +108,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   ConveyorTracking conveyor_;
   MotionQueue queue_;
   Jogging jogging_;
+  Guiding guiding_;
   LastGate gate_;
   Power power_;
   Stops stops_;

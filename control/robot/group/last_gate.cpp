@@ -4,6 +4,7 @@
 #include <array>
 
 #include "control/robot/group/fault_text.h"
+#include "control/robot/kinematics/tip_speed.h"
 
 namespace indurop::robot {
 
@@ -34,6 +35,34 @@ bool LastGate::rests_inside(const Vec3& start) const noexcept {
     }
   }
   return true;
+}
+
+// Returns whether neither the tip nor the arm's end gets too fast if each axis brakes on its own from here.
+bool LastGate::rests_slowly() const noexcept {
+  constexpr int kSamples = 10;
+  std::array<Profile, kAxes> stops;
+  const double longest = robot_.axes.stops(stops);
+  TipSpeed tip(robot_.tool.arm());
+  for (int k = 0; k < kSamples; ++k) {
+    const double time = longest * k / kSamples;
+    Joints from = Joints::Zero();
+    Joints to = Joints::Zero();
+    for (int i = 0; i < robot_.count(); ++i) {
+      from[i] = stops[at(i)].at(time).position;
+      to[i] = stops[at(i)].at(time + robot_.period).position;
+    }
+    tip.go_on_from(from);
+    tip.note(to);
+  }
+  return tip.farthest() <= 0.98 * kReducedSpeed * robot_.period;
+}
+
+bool LastGate::passes(int axis) const noexcept {
+  return robot_.axes.gate(axis).check(robot_.axes[axis].commanded().position, 1) == ErrorCode::Ok;
+}
+
+bool LastGate::passes() noexcept {
+  return !leaves_workspace() && rests_slowly() && clear_.foresee().ok();
 }
 
 void LastGate::check_axes() noexcept {

@@ -28,6 +28,10 @@ class LastGate {
   // Every set point passes through here before it reaches a drive. One that is rejected is reported as the end of the
   // path, which has to lead to begin_braking(). Real-time safe, like all functions of this class.
   void pass() noexcept;
+  // Return whether it would let the set point of one axis pass, by its limits; and those of all axes, also as far as
+  // they come to rest from there, each one on its own, in the workspace, clear of everything and with a slow tip.
+  [[nodiscard]] bool passes(int axis) const noexcept;
+  [[nodiscard]] bool passes() noexcept;
   // The axes brake from here on, in step or each one on its own, with hardness().
   void begin_braking(bool in_step) noexcept;
 
@@ -44,6 +48,7 @@ class LastGate {
   [[nodiscard]] bool leaves_workspace() const noexcept;
   [[nodiscard]] bool rests_inside(const Vec3& start) const noexcept;
   void brake() noexcept;
+  [[nodiscard]] bool rests_slowly() const noexcept;
 
   Robot& robot_;
   GroupPort& group_;

@@ -24,6 +24,10 @@ class ModeGuard {
     return permit_ == ErrorCode::Ok && mode_ != OperatingMode::Automatic;
   }
 
+  [[nodiscard]] bool permits_guiding() const noexcept {
+    return permit_ == ErrorCode::Ok && mode_ == OperatingMode::Manual;
+  }
+
   // Speed limit of the tip and of the arm's end in m/s; HUGE_VAL: none.
   [[nodiscard]] double tip_limit(bool jogging) const noexcept;
   // For single axes: the part of their full speed at which the tip and the arm's end keep the limit, even if all

@@ -61,6 +61,10 @@ void Group::run_homing() noexcept {
 }
 
 void Group::run_motion(Signals& signals) noexcept {
+  if (guiding_.on()) {
+    follow_hand();
+    return;
+  }
   if (robot_.job.running()) {
     if (!run_job(signals)) {
       return;
@@ -191,6 +195,13 @@ void Group::follow_path() noexcept {
       continue;  // its drive has no power, so it stays where it is
     }
     axes[i].follow({q[i], speed[i], (speed[i] - axes.last_speed()[i]) / robot_.period});
+  }
+}
+
+void Group::follow_hand() noexcept {
+  guiding_.move(gate_);
+  if (robot_.states.moving() && guiding_.ended()) {
+    come_to_standby();
   }
 }
 

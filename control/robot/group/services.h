@@ -5,6 +5,7 @@
 
 #include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/group_port.h"
+#include "control/robot/group/guiding.h"
 #include "control/robot/group/job_motions.h"
 #include "control/robot/group/mode_guard.h"
 #include "control/robot/group/motion_queue.h"
@@ -23,6 +24,7 @@ class Services {
     Plans& plans;
     Resuming& resuming;
     const ConveyorTracking& conveyor;
+    const Guiding& guiding;
     const MotionQueue& queue;
     const ModeGuard& mode;
     Stops& stops;

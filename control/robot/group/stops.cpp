@@ -74,7 +74,7 @@ void Stops::leave_path(ErrorCode code) noexcept {
   off_path_.conveyor.drop(code);
   off_path_.correction.stand();
   robot_.follower.reset(robot_.commanded());
-  gate_.begin_braking(!alone && !is_foreseen(code));
+  gate_.begin_braking(!alone && !off_path_.guiding.on() && !is_foreseen(code));
   for (AxisControl& a : robot_.axes) {
     a.fail(code, gate_.hardness());
   }
@@ -109,6 +109,8 @@ void Stops::stop_for_mode(ErrorCode code) noexcept {
   if (robot_.axes.any_busy() || (!states.moving() && !(states.stopping() && states.on_path()))) {
     halt_axes();
     states.leave_path();
+  } else if (off_path_.guiding.on()) {
+    gate_.begin_braking(false);
   } else if (code != ErrorCode::Enabling) {
     robot_.follower.stop();
   } else if (off_path_.conveyor.on()) {
@@ -142,6 +144,8 @@ void Stops::rest() noexcept {
   if (robot_.axes.any_busy()) {
     halt_axes();
     robot_.states.leave_path();
+  } else if (off_path_.guiding.on()) {
+    gate_.begin_braking(false);  // each axis on its own, as was checked ahead
   } else {
     robot_.follower.stop();
   }

@@ -37,15 +37,17 @@ double TorqueWatch::most_torque(int axis) const noexcept {
 void TorqueWatch::step(const Inputs& in) noexcept {
   const Joints measured = robot_.axes.measured();
   for (int i = 0; i < robot_.count(); ++i) {
+    raw_[at(i)] = in.drives[at(i)].torque;
     torque_[i] = robot_.axes[i].drive_way() * in.drives[at(i)].torque * rated_[i] / kThousandth;
   }
-  if (robot_.parts.settings.collision_limit.empty() || !robot_.axes.all_enabled() ||
+  const bool watched = !robot_.parts.settings.collision_limit.empty() || guided_ != Guided::No;
+  if (!watched || !robot_.axes.all_enabled() ||
       robot_.states.is(GroupState::Homing)) {
     contact_.rest();
     return;
   }
   const int axis = contact_.step(robot_.tool.dynamics(), measured, torque_, robot_.period);
-  if (robot_.axes.any_pushes()) {
+  if (robot_.axes.any_pushes() || guided_ == Guided::Moved) {
     contact_.release();
     return;
   }
@@ -57,6 +59,16 @@ void TorqueWatch::step(const Inputs& in) noexcept {
       "something pushes against axis %d with at least %.0f %s, or the arm does not hold what TOOL and LOAD say",
       axis + 1, std::abs(contact_.residual()[axis]), robot_.parts.arm.axis(axis).slides() ? "N" : "N m");
   group_.trip(ErrorCode::Contact, axis + 1, robot_.parts.settings.emergency_factor, text_);
+}
+
+int TorqueWatch::first_unknown() const noexcept {
+  const bool known = robot_.tool.dynamics().known();
+  for (int i = 0; i < robot_.count(); ++i) {
+    if (!robot_.parts.arm.moves_workpiece(i) && !(known && rated_[i] > 0)) {
+      return i;
+    }
+  }
+  return -1;
 }
 
 void TorqueWatch::weigh_pushing() noexcept {

@@ -28,6 +28,8 @@ constexpr Number kNumbers[] = {
     {"regain_distance", &Settings::regain_distance},
     {"plan_time", &Settings::plan_time},
     {"clearance", &Settings::clearance},
+    {"guide_mass", &Settings::guide_mass},
+    {"guide_damping", &Settings::guide_damping},
 };
 // Settings that need not be above 0.
 constexpr Number kOtherNumbers[] = {
@@ -53,7 +55,8 @@ constexpr List kLists[] = {{"acceleration", &Settings::acceleration},
                            {"zero", &Settings::zero},
                            {"rotor_inertia", &Settings::rotor_inertia},
                            {"rated_torque", &Settings::rated_torque},
-                           {"collision_limit", &Settings::collision_limit}};
+                           {"collision_limit", &Settings::collision_limit},
+                           {"guide_threshold", &Settings::guide_threshold}};
 constexpr const char* kCategory = "emergency_category";
 constexpr const char* kIgnored = "ignore_collisions";
 constexpr const char* kOthers = "other_robots";
@@ -234,6 +237,7 @@ std::vector<WrongSetting> check_axes(const Settings& settings, const Arm& arm, b
   }
   check("collision_limit", of_arm, count);
   check("rotor_inertia", settings.rotor_inertia, count, true);
+  check("guide_threshold", settings.guide_threshold, count, true);
   for (const char* name : {"collision_limit", "rotor_inertia"}) {
     const bool rotors = name == std::string_view("rotor_inertia");
     if (!(rotors ? settings.rotor_inertia : settings.collision_limit).empty() && !weighed) {

@@ -113,7 +113,8 @@ class Signals {
 };
 
 // Jogging while the group is in standby: one axis, or the tip along or about one direction.
-enum class JogFrame : std::int16_t { Joint, Base, Tool, Work };
+// Hand: the arm gives way to a hand that pushes it, in manual mode only.
+enum class JogFrame : std::int16_t { Joint, Base, Tool, Work, Hand };
 struct JogRequest {
   bool enabled = false;  // the enabling device; without it the robot stops
   JogFrame frame = JogFrame::Joint;
@@ -254,6 +255,7 @@ struct Outputs {
   AxisNumbers acceleration{};             // deg/s^2, commanded
   JobReport job;
   OperatingMode mode = OperatingMode::Any;  // the mode in effect
+  bool guided = false;                      // a hand may move the arm now
   bool may_move = true;                     // true unless the mode or its enabling device forbids motion
   std::uint32_t tool = 0;                   // in use; 0: none
   const char* tool_name = "";               // valid as long as the controller
@@ -289,6 +291,11 @@ struct Settings {
   // not known. And the limit of external torque beyond what the arm needs; empty: no limit.
   std::vector<double> rated_torque;
   std::vector<double> collision_limit;
+  // Guiding by hand: the mass and damping that a hand feels at the arm's end, kg and N s/m; and the torque of each axis
+  // that moves nothing, N m, N for sliding ones; empty: 2 % of rated_torque.
+  double guide_mass = 20;
+  double guide_damping = 150;
+  std::vector<double> guide_threshold;
   // mm, x y z of two opposite corners of the box that the tool's point must not leave, in the base's frame; empty: no
   // box.
   std::vector<double> workspace;
