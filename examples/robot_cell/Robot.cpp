@@ -220,6 +220,7 @@ void write_arm() {
   arm->tool = out.tool_name;
   arm->eMode = static_cast<ROBOT_OPERATING_MODE>(out.mode);
   arm->bMayMove = out.may_move;
+  arm->bGuided = out.guided;
 }
 
 void write_path() {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <sstream>
@@ -20,6 +21,8 @@ namespace robot = indurop::robot;
 namespace {
 
 constexpr std::size_t kAxes = 6;
+constexpr double kTremor = 0.05;  // part of its force by which a hand trembles
+constexpr double kTremorHz = 9;
 constexpr double kRadiansPerCount = 2 * std::numbers::pi / 1'320'000;
 
 using Six = std::array<double, kAxes>;
@@ -99,16 +102,26 @@ void run() {
   const AXIS1_IN_t in[kAxes] = {AXIS1_IN, AXIS2_IN, AXIS3_IN, AXIS4_IN, AXIS5_IN, AXIS6_IN};
   began = began < 0 ? irp::release_ns() : began;
   const double now = 1e-9 * static_cast<double>(irp::release_ns() - began);
-  Six pushed = CONTACT::push;
+  Six load{};
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    axes[i].position = in[i].position * kRadiansPerCount;
+    axes[i].torque = in[i].torque / 1000.0 * rated[i];
+  }
+  Six wrench = CONTACT::hand;
+  for (double& one : wrench) {
+    one *= 1 + kTremor * std::sin(2 * std::numbers::pi * kTremorHz * now);
+  }
+  Six pushed{};
+  arm->push_end(axes, wrench, pushed);
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    pushed[i] += CONTACT::push[i];
+  }
   for (const Visit& visit : visits) {
     if (now >= visit.from && now < visit.to) {
       pushed[visit.axis - 1] += visit.torque;
     }
   }
-  Six load{};
   for (std::size_t i = 0; i < kAxes; ++i) {
-    axes[i].position = in[i].position * kRadiansPerCount;
-    axes[i].torque = in[i].torque / 1000.0 * rated[i];
     axes[i].push = pushed[i];
   }
   arm->step(axes, period, load);

@@ -62,7 +62,7 @@ void run() {
     ask(SVC_AD_GROUP_RESET);
   } else if (ROBOT_MODULE_STATE.eState == ROBOT_GROUP_DISABLED) {
     ask(SVC_AD_GROUP_ENABLE);
-  } else if (ROBOT_MODULE_STATE.eState == ROBOT_GROUP_STANDBY) {
+  } else if (ROBOT_MODULE_STATE.eState == ROBOT_GROUP_STANDBY && ROBOT_MODE.eMode != ROBOT_MODE_MANUAL) {
     ask(ROBOT_JOB.bResume != 0 ? SVC_JB_RESUME : SVC_JB_START);
   }
 }

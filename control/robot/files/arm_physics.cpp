@@ -4,6 +4,7 @@
 #include <indurop/robot/arm_physics.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 #include "control/robot/files/urdf.h"
 #include "control/robot/kinematics/dynamics.h"
@@ -15,13 +16,23 @@ namespace {
 
 class Physics final : public ArmPhysics {
  public:
-  Physics(int count, const Dynamics& dynamics) noexcept : count_(count), dynamics_(dynamics) {}
+  Physics(const Arm& arm, const Dynamics& dynamics) noexcept : arm_(arm), count_(arm.count()), dynamics_(dynamics) {}
 
   [[nodiscard]] std::size_t axis_count() const noexcept override { return static_cast<std::size_t>(count_); }
 
   void hold(double mass, double x, double y, double z, double radius) noexcept override {
     constexpr double kBall = 0.4;
     dynamics_.hold({mass, Vec3(x, y, z), kBall * mass * radius * radius * Mat3::Identity()});
+  }
+
+  void push_end(std::span<const AxisPhysics> axes, const std::array<double, 6>& wrench,
+                std::span<double> torques) const noexcept override {
+    Joints q = Joints::Zero();
+    for (int i = 0; i < count_; ++i) {
+      q[i] = axes[static_cast<std::size_t>(i)].position;
+    }
+    const Joints pushed = arm_.jacobian(q).transpose() * Eigen::Map<const Twist>(wrench.data());
+    std::copy_n(pushed.data(), count_, torques.begin());
   }
 
   void step(std::span<const AxisPhysics> axes, double period, std::span<double> loads) noexcept override {
@@ -60,6 +71,7 @@ class Physics final : public ArmPhysics {
     return Eigen::LDLT<Matrix>(inertia).solve(rest);
   }
 
+  Arm arm_;
   int count_;
   Dynamics dynamics_;
   Joints last_ = Joints::Zero();
@@ -85,7 +97,7 @@ std::unique_ptr<ArmPhysics> ArmPhysics::load(const std::string& urdf, std::vecto
     errors.push_back(urdf + ": error: the links have no masses; give them <inertial>");
     return nullptr;
   }
-  return std::make_unique<Physics>(model->arm.in_world().count(), model->dynamics);
+  return std::make_unique<Physics>(model->arm.in_world(), model->dynamics);
 }
 
 }  // namespace indurop::robot

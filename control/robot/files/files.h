@@ -22,6 +22,7 @@ struct FileNames {
   std::string ignored{};          // Settings::ignore_collisions
   std::vector<double> rotor_inertia{};
   std::optional<bool> shares{};  // whether there are Settings::other_robots; nullopt: it is not known
+  double tool_turn_speed = 180;  // deg/s, as in Settings
 };
 
 FileNames names_of(const Settings& settings);

@@ -243,7 +243,8 @@ FileNames names_of(const Settings& settings) {
           settings.clearance,
           settings.ignore_collisions,
           {},
-          !settings.other_robots.empty()};
+          !settings.other_robots.empty(),
+          settings.tool_turn_speed};
 }
 
 Findings check_module(FileNames names, const PropertyText& property) {

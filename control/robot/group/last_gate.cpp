@@ -39,7 +39,8 @@ bool LastGate::rests_inside(const Vec3& start) const noexcept {
 
 // Returns whether neither the tip nor the arm's end gets too fast if each axis brakes on its own from here.
 bool LastGate::rests_slowly() const noexcept {
-  constexpr int kSamples = 10;
+  constexpr int kSamples = 16;
+  constexpr double kRestPart = 0.94;  // of the limit; it may be faster between two of them
   std::array<Profile, kAxes> stops;
   const double longest = robot_.axes.stops(stops);
   TipSpeed tip(robot_.tool.arm());
@@ -54,7 +55,7 @@ bool LastGate::rests_slowly() const noexcept {
     tip.go_on_from(from);
     tip.note(to);
   }
-  return tip.farthest() <= 0.98 * kReducedSpeed * robot_.period;
+  return tip.farthest() <= kRestPart * kReducedSpeed * robot_.period;
 }
 
 bool LastGate::passes(int axis) const noexcept {

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -35,6 +36,11 @@ class ArmPhysics {
   // Sets the payload from now on, seen from the arm's end: kg, m, and the inertia of a ball of that radius (m). 0 kg:
   // no payload.
   virtual void hold(double mass, double x, double y, double z, double radius) noexcept = 0;
+  // Computes with which torques a hand that pushes the arm's end pushes its axes, as AxisPhysics::push. `wrench`: force
+  // and moment along the axes of the base, N and N m. Both spans have axis_count() elements; only positions are read.
+  // Real-time safe.
+  virtual void push_end(std::span<const AxisPhysics> axes, const std::array<double, 6>& wrench,
+                        std::span<double> torques) const noexcept = 0;
   // Ends a period (s): computes the load of each drive in the next one, so that its axis accelerates as that of the arm
   // does. Both spans have axis_count() elements. Real-time safe.
   virtual void step(std::span<const AxisPhysics> axes, double period, std::span<double> loads) noexcept = 0;

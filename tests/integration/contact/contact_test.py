@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The arm with masses (examples/robot_contact) in virtual time: it stops for each push of its visitor, on the right axis and
 soon, goes on, and stops for nothing else, also with other loads of its loops; it is nearer to its set points if its drives
-get the torque that a motion needs; what it holds is found in recordings; and an axis of it pushes with a torque, by blocks and by a
-job."""
+get the torque that a motion needs; what it holds is found in recordings; an axis of it pushes with a torque, by blocks and by a job;
+and a hand guides it."""
 
 import argparse
 import csv
@@ -89,6 +89,7 @@ def main():
     parser.add_argument("--io-module", required=True)
     parser.add_argument("--blocks", required=True)
     parser.add_argument("--wall", required=True)
+    parser.add_argument("--hand", required=True)
     parser.add_argument("--work", type=pathlib.Path, required=True)
     cell = Cell(parser.parse_args())
     failed = []
@@ -141,6 +142,11 @@ def main():
     expect("an axis pushes with a torque and returns, by PUSH of a job",
            len(pressed) == 6 and all(value in ("1", "true") for name, value in pressed.items() if name.startswith("ok_")),
            pressed or last.keys())
+    last = cell.run("guided", 12, quiet + ((f"{cell.options.example}/swing.so", cell.options.hand),))[-1]
+    guided = {name.split("::")[1]: value for name, value in last.items() if name.startswith("guide_hand::")}
+    expect("a hand guides the arm, which stands where it is left",
+           len(guided) == 9 and all(value in ("1", "true") for name, value in guided.items() if name.startswith("ok_")),
+           guided or last.keys())
     return 1 if failed else 0
 
 

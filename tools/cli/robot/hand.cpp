@@ -44,15 +44,25 @@ std::optional<Direction> read_direction(const Hand& hand) {
 }
 
 // Sends the heartbeat to the robot repeatedly. Returns the exit code.
-int hold(Context& context, vars::Store& store, const Item& beat, const Hand& hand) {
+int hold(Context& context, vars::Store& store, const Item& beat, const HeldJog& held) {
   constexpr std::int64_t kBeatNs = 100'000'000;
-  const std::int64_t end = hand.for_ns > 0 ? rt::now_ns() + hand.for_ns : INT64_MAX;
+  constexpr std::int64_t kEachNs = 20'000'000;
+  const std::int64_t end = held.for_ns > 0 ? rt::now_ns() + held.for_ns : INT64_MAX;
+  std::int64_t next_beat = rt::now_ns() + kBeatNs;
   std::uint32_t number = 1;
   while (rt::now_ns() < end) {
-    if (wait_until(std::min(end, rt::now_ns() + kBeatNs)) == Woken::Signal) {
+    const std::int64_t next = held.each ? std::min(next_beat, rt::now_ns() + kEachNs) : next_beat;
+    if (wait_until(std::min(end, next)) == Woken::Signal) {
       take_interrupt();
       return kOk;
     }
+    if (const int code = held.each ? held.each() : kOk; code != kOk) {
+      return code;
+    }
+    if (rt::now_ns() < next_beat) {
+      continue;
+    }
+    next_beat = rt::now_ns() + kBeatNs;
     ++number;
     number += number == 0 ? 1 : 0;
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(&number);
@@ -94,6 +104,30 @@ bool knows_frame(Context& context, const RobotChoice& choice, const std::string&
 
 }  // namespace
 
+int hold_jog(Context& context, vars::Store& store, const RobotChoice& choice, const HeldJog& held) {
+  const std::string name = choice.space + "::ROBOT_JOG";
+  std::vector<Item> parts;
+  if (const int code = select_items(context, store, {name + ".nBeat", name + ".bEnable"}, parts); code != kOk) {
+    return code;
+  }
+  const auto go = read_assignments(context, store, held.verb.c_str(),
+                                   {fmt::format("{}={{bEnable: 1, nBeat: 1, {}}}", name, held.fields)});
+  const auto rest = read_assignments(context, store, held.verb.c_str(), {name + ".bEnable=0"});
+  if (!go || !rest || any_forced(context, store, *go)) {
+    return kFailed;
+  }
+  if (const int code = release_before(context, store, parts[1], *rest); code != kOk) {
+    return code;
+  }
+  if (const int code = set_values(context, store, *go); code != kOk) {
+    return code;
+  }
+  context.out.note(held.note);
+  const int code = hold(context, store, parts[0], held);
+  const int ended = set_values(context, store, *rest);
+  return code != kOk ? code : ended;
+}
+
 int jog(Context& context, const RobotChoice& choice, const Hand& hand) {
   const auto direction = read_direction(hand);
   if (!direction) {
@@ -111,8 +145,7 @@ int jog(Context& context, const RobotChoice& choice, const Hand& hand) {
     return report(context.out, store.error());
   }
   std::vector<Item> parts;
-  if (const int code = select_items(context, *store, {name + ".dSpeed", name + ".nBeat", name + ".bEnable"}, parts);
-      code != kOk) {
+  if (const int code = select_items(context, *store, {name + ".dSpeed"}, parts); code != kOk) {
     return code;
   }
   const auto count = static_cast<int>(parts[0].place.type.size() / sizeof(double));
@@ -124,24 +157,11 @@ int jog(Context& context, const RobotChoice& choice, const Hand& hand) {
   for (int i = 0; i < count; ++i) {
     speeds += fmt::format("{}{}", i == 0 ? "" : ", ", i == direction->index ? direction->sign * hand.percent : 0);
   }
-  const auto go =
-      read_assignments(context, *store, "robot jog",
-                       {fmt::format("{}={{bEnable: 1, eFrame: {}, dSpeed: [{}], nBeat: 1{}}}", name, direction->frame,
-                                    speeds, work ? fmt::format(", frame: \"{}\"", hand.frame) : "")});
-  const auto rest = read_assignments(context, *store, "robot jog", {name + ".bEnable=0"});
-  if (!go || !rest || any_forced(context, *store, *go)) {
-    return kFailed;
-  }
-  if (const int code = release_before(context, *store, parts[2], *rest); code != kOk) {
-    return code;
-  }
-  if (const int code = set_values(context, *store, *go); code != kOk) {
-    return code;
-  }
-  context.out.note(fmt::format("{} at {} % while this command runs; Ctrl-C stops", hand.direction, hand.percent));
-  const int code = hold(context, *store, parts[1], hand);
-  const int ended = set_values(context, *store, *rest);
-  return code != kOk ? code : ended;
+  const std::string frame = work ? fmt::format(", frame: \"{}\"", hand.frame) : "";
+  return hold_jog(
+      context, *store, choice,
+      {"robot jog", fmt::format("eFrame: {}, dSpeed: [{}]{}", direction->frame, speeds, frame),
+       fmt::format("{} at {} % while this command runs; Ctrl-C stops", hand.direction, hand.percent), hand.for_ns});
 }
 
 }  // namespace indurop::tools

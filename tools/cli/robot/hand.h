@@ -4,12 +4,24 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "tools/cli/command/verb.h"
 #include "tools/client/robot/robot_desk.h"
 
 namespace indurop::tools {
+
+// A request that ROBOT_JOG holds while a command runs.
+struct HeldJog {
+  std::string verb;                // for messages: "robot jog"
+  std::string fields;              // of ROBOT_JOG in addition to bEnable and nBeat: "eFrame: 1, dSpeed: [...]"
+  std::string note;                // shown once it is requested
+  std::int64_t for_ns = 0;         // 0: until Ctrl-C
+  std::function<int()> each = {};  // called every 20 ms; an exit code other than kOk ends it
+};
+// Requests it until its time is over or Ctrl-C, then releases the switch. Returns the exit code, after a message.
+int hold_jog(Context& context, vars::Store& store, const RobotChoice& choice, const HeldJog& held);
 
 struct Hand {
   std::string direction;    // "J1+", "x-", "rz+"

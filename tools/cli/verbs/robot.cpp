@@ -4,6 +4,7 @@
 
 #include "core/base/word_values.h"
 #include "tools/cli/robot/calibrating.h"
+#include "tools/cli/robot/guiding.h"
 #include "tools/cli/robot/hand.h"
 #include "tools/cli/robot/identifying.h"
 #include "tools/cli/robot/questions.h"
@@ -36,6 +37,7 @@ struct RobotOptions {
   CalibrationAct act;
   std::string kind;
   Hand hand{"", "base"};
+  GuideOrder guide;
   RobotAnswer answer;
   std::string recording;
   std::int64_t wait_ns = 0;
@@ -102,6 +104,24 @@ void declare_jog(base::Options& app, Context& context, RobotOptions& options) {
   add_time_option(command, "--for", hand.for_ns, "Stop after this time (default: Ctrl-C)");
   add_choice(command, context, options);
   add_remote_options(command, context);
+}
+
+void declare_guide(base::Options& app, Context& context, RobotOptions& options) {
+  base::Options& command = app.command("guide", "Let a hand move the robot, and write a job of its path", [&options] {
+    options.chosen = [&options](Context& c) { return guide(c, options.choice, options.guide); };
+  });
+  robot::PathOrder& path = options.guide.path;
+  command.add("job", "JOB", path.job, "Name of the job to write (default: nothing is recorded)");
+  command.add("--file", "FILE", path.file, "Its file (default: JOB.job next to the robot's other jobs)")
+      .completes(base::Completion::File);
+  command.add("--within", "MM", path.tolerance, "How far the job may deviate from the path (default: 1)")
+      .range(0.05, 100);
+  command.add("--turned", "DEG", path.turn_tolerance, "How far the tool may be turned from it (default: 1)")
+      .range(0.05, 45);
+  command.add("--speed", "MM/S", path.speed, "Speed of the job's lines and splines (default: 100)").range(0.1, 10000);
+  add_time_option(command, "--for", options.guide.for_ns, "Stop after this time (default: Ctrl-C)");
+  add_choice(command, context, options);
+  add_files(command, options);
 }
 
 void declare_identify(base::Options& app, Context& context, RobotOptions& options) {
@@ -186,6 +206,7 @@ Action declare_robot(base::Options& app, Context& context) {
   declare_teach(app, context, *options);
   declare_reload(app, context, *options);
   declare_jog(app, context, *options);
+  declare_guide(app, context, *options);
   declare_identify(app, context, *options);
   declare_calibrate(app, context, *options);
   declare_question(app, context, *options);
@@ -204,6 +225,7 @@ const Verb kRobotVerb{
     "Examples:\n"
     "  indurop robot jog z+ --speed 20\n"
     "  indurop robot jog J1- --for 2s\n"
+    "  indurop robot guide seam --within 0.5\n"
     "  indurop robot teach PICK\n"
     "  indurop robot teach CORNER --in pallet --file points.job\n"
     "  indurop robot reload\n"

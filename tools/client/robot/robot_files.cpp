@@ -49,6 +49,8 @@ robot::FileNames files_of(const config::Config& config, const config::Module& mo
   robot::Settings settings;
   static_cast<void>(robot::take_properties(text_of(module), settings));
   names.rotor_inertia = settings.rotor_inertia;
+  names.tool_speed = settings.tool_speed;
+  names.tool_turn_speed = settings.tool_turn_speed;
   return names;
 }
 

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <kdl/chainjnttojacsolver.hpp>
 
 #include "heavy_arm.h"
 #include "robot_fixture.h"
@@ -78,6 +80,36 @@ TEST(ArmPhysics, Accelerates_as_KDL_says) {
       const auto axis = static_cast<int>(k);
       ASSERT_NEAR(needed[axis] + axes[k].rotor * acceleration[axis], axes[k].torque + axes[k].push, 1e-5)
           << "arm " << i << ", axis " << k + 1;
+    }
+  }
+}
+
+// The power of a hand is the same at the arm's end and at the axes.
+TEST(ArmPhysics, A_hand_at_the_end_pushes_the_axes) {
+  std::mt19937 random(12);
+  for (int i = 0; i < 50; ++i) {
+    const HeavyArm heavy = heavy_arm(random, {2 + i % 6, i % 2 == 1, 0});
+    const File file(heavy.urdf);
+    std::vector<std::string> errors;
+    const auto sut = ArmPhysics::load(file.name(), errors);
+    ASSERT_TRUE(sut);
+    std::vector<AxisPhysics> axes(sut->axis_count());
+    KDL::JntArray q(static_cast<unsigned>(axes.size()));
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      q(static_cast<unsigned>(k)) = axes[k].position = between(random, -0.4, 0.4);
+    }
+    std::array<double, 6> wrench{};
+    for (double& one : wrench) {
+      one = between(random, -50, 50);
+    }
+    std::vector<double> torques(axes.size());
+    sut->push_end(axes, wrench, torques);
+    KDL::ChainJntToJacSolver solver(heavy.chain);
+    KDL::Jacobian jacobian(static_cast<unsigned>(axes.size()));
+    solver.JntToJac(q, jacobian);
+    const Eigen::VectorXd expected = jacobian.data.transpose() * Eigen::Matrix<double, 6, 1>(wrench.data());
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      EXPECT_NEAR(torques[k], expected[static_cast<Eigen::Index>(k)], 1e-9) << i;
     }
   }
 }
