@@ -31,12 +31,12 @@ struct GuidedPlace {
 };
 
 struct PathOrder {
-  std::string job;             // name of the job, and of its file without ".job"
-  std::string file;            // where to write it; empty: job + ".job" next to the first file of jobs
-  std::string tool;            // that was selected; empty: none
-  double tolerance = 1;        // mm, of the tip
-  double turn_tolerance = 1;   // deg
-  double speed = 100;          // mm/s, of the job
+  std::string job;            // name of the job, and of its file without ".job"
+  std::string file;           // where to write it; empty: job + ".job" next to the first file of jobs
+  std::string tool;           // that was selected; empty: none
+  double tolerance = 1;       // mm, of the tip
+  double turn_tolerance = 1;  // deg
+  double speed = 100;         // mm/s, of the job
 };
 
 struct TaughtPath {
@@ -44,14 +44,15 @@ struct TaughtPath {
   std::string problem;                   // with the request; the same
   std::string file;                      // what was written
   std::string text;
-  bool is_read = false;   // the robot's property jobs names it
-  int points = 0;         // in the job
-  double length = 0;      // mm of the path
-  double deviation = 0;   // mm that the job deviates from it at most, and deg
+  bool is_read = false;  // the robot's property jobs names it
+  int points = 0;        // in the job
+  double length = 0;     // mm of the path
+  double deviation = 0;  // mm that the job deviates from it at most, and deg
   double turn_deviation = 0;
 };
 // Writes a job that follows a guided path, within the tolerance: MOVL where the tip went straight, MOVJ STRAIGHT where
-// the axes did, else MOVS through as few points as that takes. A file that exists is only replaced if the robot reads it.
+// the axes did, else MOVS through as few points as that takes. A file that exists is only replaced if the robot reads
+// it.
 TaughtPath teach_path(const FileNames& names, const PathOrder& order, const std::vector<GuidedPlace>& path);
 
 struct TeachOrder {

@@ -7,28 +7,28 @@
 #include <system_error>
 #include <utility>
 
-#include "control/robot/files/path_fit.h"
 #include "control/robot/files/read_files.h"
 #include "control/robot/files/teach.h"
 #include "control/robot/job/near_name.h"
 #include "control/robot/job/point_lines.h"
 #include "control/robot/kinematics/tool_set.h"
+#include "control/robot/plan/path_fit.h"
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 
 namespace indurop::robot {
 namespace {
 
-constexpr double kPart = 0.8;          // of the tolerance; the rest is for what drives deviate
-constexpr double kSameWay = 5e-5;      // m; nearer places are one, as of a hand that rests
-constexpr double kSameTurn = 1e-4;     // rad
+constexpr double kPart = 0.8;       // of the tolerance; the rest is for what drives deviate
+constexpr double kSameWay = 5e-5;   // m; nearer places are one, as of a hand that rests
+constexpr double kSameTurn = 1e-4;  // rad
 constexpr std::size_t kMostBytesOfJobs = 4U << 20U;
 
 // "12.5"
 std::string number_text(double value) {
   std::array<char, 32> text{};
-  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), std::round(value * 1000) / 1000,
-                                          std::chars_format::fixed);
+  const auto [end, error] =
+      std::to_chars(text.data(), text.data() + text.size(), std::round(value * 1000) / 1000, std::chars_format::fixed);
   return error == std::errc{} ? std::string(text.data(), end) : "?";
 }
 
@@ -92,8 +92,8 @@ std::string job_text(const PathOrder& order, const Arm& arm, const std::vector<F
     }
     motions += motion.kind == FitKind::Axes ? " STRAIGHT\n" : "\n";
   }
-  return "# Guided by hand along " + number_text(out.length) + " mm; within " + number_text(out.deviation) + " mm and " +
-         number_text(out.turn_deviation) + " deg of it.\n" + points + motions;
+  return "# Guided by hand along " + number_text(out.length) + " mm; within " + number_text(out.deviation) +
+         " mm and " + number_text(out.turn_deviation) + " deg of it.\n" + points + motions;
 }
 
 // The tool of that name; -1: there is none.
@@ -174,8 +174,7 @@ std::string wrong_order(const PathOrder& order, const JobBook& book, const Arm& 
 
 TaughtPath teach_path(const FileNames& names, const PathOrder& order, const std::vector<GuidedPlace>& path) {
   TaughtPath out;
-  const std::string folder =
-      names.jobs.empty() ? "" : std::filesystem::path(names.jobs.front()).parent_path().string();
+  const std::string folder = names.jobs.empty() ? "" : std::filesystem::path(names.jobs.front()).parent_path().string();
   out.file = !order.file.empty() ? order.file : (std::filesystem::path(folder) / (order.job + ".job")).string();
   out.is_read = names_file(names, out.file);
   const FileNames others = without_file(names, out.file);

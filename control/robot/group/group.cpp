@@ -17,13 +17,13 @@ Group::Group(GroupParts parts)
       shelf_(robot_, *this, plans_, resuming_),
       conveyor_(robot_, *this, plans_),
       queue_(robot_, *this, plans_, conveyor_),
-      jogging_(robot_, *this, plans_),
-      guiding_(robot_, *this, torques_),
-      gate_(robot_, *this, mode_, space_, {conveyor_, correction_, guiding_}),
+      by_hand_{{robot_, *this, plans_}, {robot_, *this, torques_}},
+      gate_(robot_, *this, mode_, space_, {conveyor_, correction_, by_hand_.guiding}),
       power_(robot_, *this, torques_),
-      stops_(robot_, *this, gate_, {conveyor_, correction_, guiding_}, power_),
-      job_motions_(robot_, plans_, resuming_, shelf_, torques_, {conveyor_, correction_, guiding_}),
-      services_(robot_, *this, {plans_, resuming_, conveyor_, guiding_, queue_, mode_, stops_, power_, job_motions_}),
+      stops_(robot_, *this, gate_, {conveyor_, correction_, by_hand_.guiding}, power_),
+      job_motions_(robot_, plans_, resuming_, shelf_, torques_, {conveyor_, correction_, by_hand_.guiding}),
+      services_(robot_, *this,
+                {plans_, resuming_, conveyor_, by_hand_.guiding, queue_, mode_, stops_, power_, job_motions_}),
       service_(robot_, *this, plans_, services_),
       answers_(robot_.job),
       overrides_(robot_, *this, conveyor_, correction_),
@@ -53,9 +53,9 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
     robot_.single.serve(in, mode_.permit());
   }
   answers_.serve(in.answer);
-  jogging_.step(in.jog, mode_.permits_jogging());
-  guiding_.step(in, mode_);
-  overrides_.step(in, queue_.interrupted(), mode_, jogging_.on());
+  by_hand_.jogging.step(in.jog, mode_.permits_jogging());
+  by_hand_.guiding.step(in, mode_);
+  overrides_.step(in, queue_.interrupted(), mode_, by_hand_.jogging.on());
   robot_.job.set_pauses(in.single_step, in.breakpoints);
   plans_.expect_work(robot_.states.powered());
   run_state(signals);
@@ -149,8 +149,8 @@ void Group::end_motion() noexcept {
   static_cast<void>(job_motions_.step_push());  // an axis that pushed for a job rests now
   robot_.states.end_motion();
   queue_.end_interrupt(ErrorCode::Ok);
-  jogging_.end();
-  guiding_.end();
+  by_hand_.jogging.end();
+  by_hand_.guiding.end();
   robot_.axes.end_group_motion();
 }
 
@@ -172,7 +172,7 @@ void Group::report(Outputs& out) noexcept {
   out.error = states.error();
   out.error_axis = static_cast<std::uint32_t>(states.error_axis());
   out.mode = mode_.mode();
-  out.guided = guiding_.on();
+  out.guided = by_hand_.guiding.on();
   out.may_move = mode_.permit() == ErrorCode::Ok;
   out.tool = static_cast<std::uint32_t>(robot_.tool.number());
   out.tool_name = robot_.tool.tool().name.c_str();

@@ -7,13 +7,12 @@
 
 #include "control/robot/group/answer_desk.h"
 #include "control/robot/group/breakdown.h"
+#include "control/robot/group/by_hand.h"
 #include "control/robot/group/command_desk.h"
 #include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/group_port.h"
-#include "control/robot/group/guiding.h"
 #include "control/robot/group/interrupt_shelf.h"
 #include "control/robot/group/job_motions.h"
-#include "control/robot/group/jogging.h"
 #include "control/robot/group/kept_image.h"
 #include "control/robot/group/last_gate.h"
 #include "control/robot/group/mode_guard.h"
@@ -68,7 +67,6 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   void take_plan() noexcept;
   void note_lines(const Plan& plan) noexcept;
   void follow_path() noexcept;
-  void follow_hand() noexcept;
   void motion_failed(const Fault& fault, int source, std::uint32_t ticket) noexcept;
   void end_motions() noexcept;
 
@@ -85,7 +83,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   [[nodiscard]] bool is_serving() const noexcept override { return service_.active(); }
   [[nodiscard]] ErrorCode may_move() const noexcept override { return services_.may_move(); }
   [[nodiscard]] bool settled() const noexcept override { return job_motions_.settled(); }
-  [[nodiscard]] double tip_limit() const noexcept override { return mode_.tip_limit(jogging_.on()); }
+  [[nodiscard]] double tip_limit() const noexcept override { return mode_.tip_limit(by_hand_.jogging.on()); }
   bool change_tool(int tool) noexcept override { return job_motions_.take_tool(tool); }
   void forget_plans() noexcept override;
   void drop_motions(ErrorCode first) noexcept override { queue_.drop(first); }
@@ -107,8 +105,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   InterruptShelf shelf_;
   ConveyorTracking conveyor_;
   MotionQueue queue_;
-  Jogging jogging_;
-  Guiding guiding_;
+  ByHand by_hand_;
   LastGate gate_;
   Power power_;
   Stops stops_;

@@ -10,13 +10,13 @@ namespace indurop::robot {
 
 namespace {
 
-constexpr double kMostHand = 600;     // N, more is no hand
-constexpr double kLeastLever = 0.15;    // m, the least lever of a hand
-constexpr int kMostRaw = 5000;        // thousandths of the rated torque that a drive can have
+constexpr double kMostHand = 600;         // N, more is no hand
+constexpr double kLeastLever = 0.15;      // m, the least lever of a hand
+constexpr int kMostRaw = 5000;            // thousandths of the rated torque that a drive can have
 constexpr double kStaleTime = 0.5;        // s; hands tremble, so no torque stays the same that long
-constexpr double kWeightTime = 0.5;     // s for which a weight acts steadily
-constexpr double kWeightSteady = 0.05;      // part by which it may differ meanwhile
-constexpr double kOtherForces = 0.2;  // part of the push that need not be weight
+constexpr double kWeightTime = 0.5;       // s for which a weight acts steadily
+constexpr double kWeightSteady = 0.05;    // part by which it may differ meanwhile
+constexpr double kOtherForces = 0.2;      // part of the push that need not be weight
 constexpr double kNewtonPerKg = 9.80665;  // m/s^2
 
 }  // namespace

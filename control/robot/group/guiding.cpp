@@ -15,16 +15,16 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kGuidedSpeed = 0.9 * kReducedSpeed;  // m/s of the tip and of the arm's end
-constexpr double kUsualThreshold = 0.02;               // of the rated torque, if none is given
-constexpr double kWeighTime = 0.4;                // s at rest before it begins
-constexpr double kHandLever = 0.15;                // m, the least lever of a hand
-constexpr double kDrySpeed = 0.01;                    // rad/s or m/s: below this, dry friction may act in either direction
-constexpr double kWallTime = 0.5;                     // s: an axis near its end is no faster than the way left in this time
-constexpr double kWallMargin = 1e-3;                  // rad or m, before the end of an axis
-constexpr double kGuidedPart = 0.9;                // of an axis
-constexpr double kRefusedPace = 0.7;                   // where set points were refused
+constexpr double kUsualThreshold = 0.02;              // of the rated torque, if none is given
+constexpr double kWeighTime = 0.4;                    // s at rest before it begins
+constexpr double kHandLever = 0.15;                   // m, the least lever of a hand
+constexpr double kDrySpeed = 0.01;    // rad/s or m/s: below this, dry friction may act in either direction
+constexpr double kWallTime = 0.5;     // s: an axis near its end is no faster than the way left in this time
+constexpr double kWallMargin = 1e-3;  // rad or m, before the end of an axis
+constexpr double kGuidedPart = 0.9;   // of an axis
+constexpr double kRefusedPace = 0.7;  // where set points were refused
 constexpr double kLeastPace = 0.02;
-constexpr double kPaceTime = 1;                   // s, until the full speed is back
+constexpr double kPaceTime = 1;  // s, until the full speed is back
 
 Joints hand_thresholds(const Settings& settings) noexcept {
   const std::vector<double>& given = settings.guide_threshold;
@@ -97,7 +97,7 @@ Fault Guiding::weigh() noexcept {
   for (int i = 0; i < robot_.count(); ++i) {
     if (moving[i] != 0) {
       std::snprintf(text_, sizeof text_,
-                    "axis %d is pushed with %.0f %s before guiding begins: let go first, or correct TOOL and LOAD",
+                    "axis %d is pushed with %.0f %s before guiding begins: release it first, or correct TOOL and LOAD",
                     i + 1, std::abs(torques_.push()[i]), robot_.parts.arm.axis(i).slides() ? "N" : "N m");
       return {ErrorCode::Contact, i + 1};
     }
@@ -158,7 +158,7 @@ void Guiding::brake_at_walls(Joints& velocity) const noexcept {
   }
 }
 
-// The mass is no faster than the arm: a hand that lets go after a hard push stops it as soon as any other.
+// The mass is no faster than the arm: a hand that is taken away after a hard push stops it as soon as any other.
 Joints Guiding::shaped() noexcept {
   brake_at_walls(velocity_);
   const Joints q = robot_.commanded();
@@ -213,6 +213,9 @@ void Guiding::move(LastGate& gate) noexcept {
     }
   }
   robot_.follower.reset(robot_.commanded());
+  if (!wanted_ && robot_.axes.at_rest()) {
+    group_.come_to_standby();
+  }
 }
 
 }  // namespace indurop::robot

@@ -26,10 +26,8 @@ class Guiding {
   void step(const Inputs& in, const ModeGuard& mode) noexcept;
   // Returns whether the hand moves the arm, or may: set points are on no path.
   [[nodiscard]] bool on() const noexcept { return on_; }
-  // Computes the next set points, while it is on.
+  // Computes the next set points, while it is on. Enters Standby when the arm rests after the request has ended.
   void move(LastGate& gate) noexcept;
-  // Returns whether the arm has come to rest after the request ended.
-  [[nodiscard]] bool ended() const noexcept { return on_ && !wanted_ && robot_.axes.at_rest(); }
   // The motion has ended.
   void end() noexcept { on_ = false; }
 
@@ -51,10 +49,10 @@ class Guiding {
   GuideWatch watch_;
   bool on_ = false;
   bool wanted_ = false;
-  bool blocked_ = false;  // refused, until the request ends
-  double weighing_ = 0;   // s
-  double part_ = 1;       // of full speed, by override and hold
-  double pace_ = 1;       // part of full speed that is left near what the arm must not reach
+  bool blocked_ = false;              // refused, until the request ends
+  double weighing_ = 0;               // s
+  double part_ = 1;                   // of full speed, by override and hold
+  double pace_ = 1;                   // part of full speed that is left near what the arm must not reach
   Joints velocity_ = Joints::Zero();  // of the mass that the hand feels
   FaultText text_ = "";
 };

@@ -61,8 +61,8 @@ void Group::run_homing() noexcept {
 }
 
 void Group::run_motion(Signals& signals) noexcept {
-  if (guiding_.on()) {
-    follow_hand();
+  if (by_hand_.guiding.on()) {
+    by_hand_.guiding.move(gate_);
     return;
   }
   if (robot_.job.running()) {
@@ -166,8 +166,8 @@ void Group::motion_failed(const Fault& fault, int source, std::uint32_t ticket) 
   }
   finish_service(Fault{fault.code, fault.axis});
   resuming_.cancel_way_back();
-  if (jogging_.on()) {
-    jogging_.try_shorter();
+  if (by_hand_.jogging.on()) {
+    by_hand_.jogging.try_shorter();
   } else if (by_job) {
     stop_for(fault);
   }
@@ -181,9 +181,9 @@ void Group::follow_path() noexcept {
   fault = fault.ok() ? conveyor_.carry(q) : fault;
   fault = fault.ok() ? correction_.shift(q) : fault;
   if (!fault.ok()) {
-    if (jogging_.on() && axes.gates_at_rest() && robot_.states.moving()) {
+    if (by_hand_.jogging.on() && axes.gates_at_rest() && robot_.states.moving()) {
       follower.reset(robot_.commanded());  // an axis at its limit may have no first step
-      jogging_.block();
+      by_hand_.jogging.block();
       return;
     }
     fall_off(fault.code, fault.axis);
@@ -195,13 +195,6 @@ void Group::follow_path() noexcept {
       continue;  // its drive has no power, so it stays where it is
     }
     axes[i].follow({q[i], speed[i], (speed[i] - axes.last_speed()[i]) / robot_.period});
-  }
-}
-
-void Group::follow_hand() noexcept {
-  guiding_.move(gate_);
-  if (robot_.states.moving() && guiding_.ended()) {
-    come_to_standby();
   }
 }
 

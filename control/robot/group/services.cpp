@@ -23,7 +23,8 @@ bool Services::comes_to_rest() const noexcept {
 
 ErrorCode Services::begin(Service service, const ServiceRequest& request) noexcept {
   const bool ends_it = service == Service::Stop || service == Service::JobStop || service == Service::GroupDisable;
-  if ((parts_.conveyor.on() || parts_.guiding.on()) && !ends_it && service != Service::None && service != Service::GroupReset) {
+  if ((parts_.conveyor.on() || parts_.guiding.on()) && !ends_it && service != Service::None &&
+      service != Service::GroupReset) {
     return ErrorCode::State;
   }
   switch (service) {
@@ -90,7 +91,8 @@ ErrorCode Services::may_move() const noexcept {
   }
   const GroupStates& states = robot_.states;
   const bool free = !robot_.axes.any_busy() && !parts_.guiding.on();
-  if (!(states.is(GroupState::Standby) && free) && !(states.moving() && !robot_.job.running() && !parts_.guiding.on())) {
+  if (!(states.is(GroupState::Standby) && free) &&
+      !(states.moving() && !robot_.job.running() && !parts_.guiding.on())) {
     return ErrorCode::State;
   }
   return robot_.axes.all_homed() ? ErrorCode::Ok : ErrorCode::NotHomed;

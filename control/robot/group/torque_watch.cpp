@@ -41,8 +41,7 @@ void TorqueWatch::step(const Inputs& in) noexcept {
     torque_[i] = robot_.axes[i].drive_way() * in.drives[at(i)].torque * rated_[i] / kThousandth;
   }
   const bool watched = !robot_.parts.settings.collision_limit.empty() || guided_ != Guided::No;
-  if (!watched || !robot_.axes.all_enabled() ||
-      robot_.states.is(GroupState::Homing)) {
+  if (!watched || !robot_.axes.all_enabled() || robot_.states.is(GroupState::Homing)) {
     contact_.rest();
     return;
   }

@@ -45,8 +45,8 @@ class TorqueWatch {
 
   Robot& robot_;
   GroupPort& group_;
-  Joints rated_;                    // torque of the drives; 0: unknown
-  Joints torque_ = Joints::Zero();  // measured
+  Joints rated_;                           // torque of the drives; 0: unknown
+  Joints torque_ = Joints::Zero();         // measured
   std::array<std::int16_t, kAxes> raw_{};  // the same in parts of the rated one
   Guided guided_ = Guided::No;
   TorqueFeed feed_;

@@ -96,8 +96,7 @@ class GuideLog {
   int marks_ = 0;
 };
 
-int write_taught(Context& context, const robot::FileNames& names, const robot::PathOrder& order,
-                 const GuideLog& log) {
+int write_taught(Context& context, const robot::FileNames& names, const robot::PathOrder& order, const GuideLog& log) {
   const robot::TaughtPath taught = robot::teach_path(names, order, log.places());
   if (!taught.errors.empty() || !taught.problem.empty()) {
     print_diagnostics(context, taught.errors, false);
@@ -108,9 +107,8 @@ int write_taught(Context& context, const robot::FileNames& names, const robot::P
   }
   context.out.note(fmt::format("{}: {:.0f} mm in {} points, within {:.2f} mm and {:.2f} deg of the path", taught.file,
                                taught.length, taught.points, taught.deviation, taught.turn_deviation));
-  context.out.note(taught.is_read
-                       ? "the robot knows it after it has read its files again: indurop robot reload"
-                       : "name it in the property jobs of the robot module, then restart the node");
+  context.out.note(taught.is_read ? "the robot knows it after it has read its files again: indurop robot reload"
+                                  : "name it in the property jobs of the robot module, then restart the node");
   return kOk;
 }
 
@@ -138,7 +136,7 @@ int guide(Context& context, const RobotChoice& choice, const GuideOrder& order) 
   HeldJog held;
   held.verb = "robot guide";
   held.fields = fmt::format("eFrame: {}", kByHand);
-  held.note = "let go of the arm until it can be guided; Ctrl-C ends";
+  held.note = "release the arm until it can be guided; Ctrl-C ends";
   held.for_ns = order.for_ns;
   held.each = [&log] { return log.take(); };
   if (const int code = hold_jog(context, *store, choice, held); code != kOk) {

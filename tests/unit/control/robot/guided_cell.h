@@ -133,7 +133,7 @@ class GuidedCell {
   Setup setup;
   const double period;
   Cell cell;
-  Body held{};  // what the arm really holds
+  Body held{};                                       // what the arm really holds
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  // of the hand at the arm's end, N and N m, along the base
   bool stale = false;                                // the drives report the same torques again and again
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Guiding by hand: when it begins and ends, that the arm stands when nobody pushes, moves as mass and damping predict,
+// Guiding by hand: when it begins and ends, that the arm stands when nothing pushes, moves as mass and damping predict,
 // and stops when its drives or its payload are not what they should be. orocos-kdl is the arm.
 #include <gmock/gmock.h>
 
@@ -24,9 +24,8 @@ class Guiding_by_hand : public testing::Test {
   [[nodiscard]] std::string message() const { return sut.cell.out.job.message; }
   [[nodiscard]] double speed() const {
     const auto& speeds = sut.cell.out.speed;
-    return std::abs(*std::max_element(speeds.begin(), speeds.end(), [](double a, double b) {
-      return std::abs(a) < std::abs(b);
-    }));
+    return std::abs(
+        *std::max_element(speeds.begin(), speeds.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
   }
   [[nodiscard]] bool rests_within(double seconds) {
     return sut.until([&] { return speed() == 0 && !sut.cell.out.guided; }, seconds);
@@ -193,7 +192,7 @@ TEST_F(Guiding_by_hand, It_does_not_begin_with_a_wrong_payload_or_a_hand_that_pu
   sut.run(0.5);
   EXPECT_FALSE(sut.guide());
   EXPECT_EQ(sut.cell.out.error, ErrorCode::Contact);
-  EXPECT_THAT(message(), HasSubstr("before guiding begins: let go first, or correct TOOL and LOAD"));
+  EXPECT_THAT(message(), HasSubstr("before guiding begins: release it first, or correct TOOL and LOAD"));
   sut.held = {};
   sut.run(1);
   EXPECT_FALSE(sut.cell.out.guided) << "only after the switch was released";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hands that push anyhow, also violently, against several arms: with holds, overrides, released switches, changed modes,
-// emergency stops, drives that fail and payloads that change. No set point breaks a limit of a joint, neither the tip
-// nor the arm's end is faster than 250 mm/s, and neither is in a forbidden zone or outside of the workspace, as
+// Hands that push anyhow, also violently, against several arms: with holds, overrides, released switches, changed
+// modes, emergency stops, drives that fail and payloads that change. No set point breaks a limit of a joint, neither
+// the tip nor the arm's end is faster than 250 mm/s, and neither is in a forbidden zone or outside of the workspace, as
 // orocos-kdl places them. INDUROP_ROBOT_HANDS says how many runs, INDUROP_ROBOT_SEED from which one on.
 #include <fmt/core.h>
 
@@ -34,7 +34,8 @@ struct Bounds {
 
 class RandomHand {
  public:
-  explicit RandomHand(unsigned seed) : random_(seed), sut_(any_setup(seed)), judge_(sut_->period, sut_->setup.arm.urdf) {}
+  explicit RandomHand(unsigned seed)
+      : random_(seed), sut_(any_setup(seed)), judge_(sut_->period, sut_->setup.arm.urdf) {}
 
   void run() {
     if (!sut_->enable()) {
@@ -84,7 +85,8 @@ class RandomHand {
     with_tool_ = !one_in(4);
     if (setup.arm.count == 6 && seed % 3 != 1) {
       const std::string link = "<link name=\"link_j5\">";
-      const std::string ball = fmt::format("<collision><geometry><sphere radius=\"{}\"/></geometry></collision>", kBall);
+      const std::string ball =
+          fmt::format("<collision><geometry><sphere radius=\"{}\"/></geometry></collision>", kBall);
       setup.arm.urdf.insert(setup.arm.urdf.find(link) + link.size(), ball);
       has_ball_ = true;
     }
@@ -217,7 +219,9 @@ class RandomHand {
     flange_ = flange;
     known_ = true;
     if (zone_) {
-      EXPECT_FALSE(zone_->contains(tip, 0)) << to_string(sut_->cell.out.error) << " in period " << periods << (with_tool_ ? " with a tool" : "") << ", guided " << sut_->cell.out.guided;
+      EXPECT_FALSE(zone_->contains(tip, 0))
+          << to_string(sut_->cell.out.error) << " in period " << periods << (with_tool_ ? " with a tool" : "")
+          << ", guided " << sut_->cell.out.guided;
       nearest = std::min(nearest, apart(tip));
       if (has_ball_) {
         const double room = apart(Vec3::Map(sut_->place(q, 5).p.data)) - kBall;

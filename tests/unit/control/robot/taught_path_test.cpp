@@ -93,21 +93,25 @@ class TaughtPaths : public testing::Test {
   }
 };
 
-TEST_F(TaughtPaths, Random_ones_are_played_within_the_tolerance) {
-  const int runs = taught_runs("INDUROP_ROBOT_TAUGHT", 12);
-  const int first = taught_runs("INDUROP_ROBOT_SEED", 1);
+// What became of many paths.
+struct Sums {
   int played = 0;
   int refused = 0;
   long places = 0;
   long points = 0;
   double worst = 0;  // part of the tolerance
-  for (int i = first; i < first + runs && !HasFailure(); ++i) {
-    SCOPED_TRACE(fmt::format("INDUROP_ROBOT_SEED={}", i));
+};
+
+class RandomTaughtPaths : public TaughtPaths {
+ protected:
+  Sums sums;
+
+  void run(int i) {
     random.seed(static_cast<unsigned>(i));
     spec = i % 3 == 0 ? cell_spec() : i % 3 == 1 ? irb4600_spec() : xarm6_spec();
     const Folder folder;
     const std::string tool = "TOOL pen = POSE 10 20 150 RPY 0 30 0\n";
-    FileNames names{folder.write("arm.urdf", spec.urdf()), {folder.write("points.job", tool)}, {}};
+    const FileNames names{folder.write("arm.urdf", spec.urdf()), {folder.write("points.job", tool)}, {}};
     PathOrder order;
     order.job = "guided";
     order.tool = i % 2 == 0 ? "pen" : "";
@@ -117,60 +121,80 @@ TEST_F(TaughtPaths, Random_ones_are_played_within_the_tolerance) {
     const TaughtPath taught = teach_path(names, order, path);
     ASSERT_TRUE(taught.errors.empty()) << base::to_text(taught.errors);
     ASSERT_EQ(taught.problem, "");
-    places += static_cast<long>(path.size());
-    points += taught.points;
-    Settings settings;
-    Cell cell(tool, 4, 0, true, settings, spec.urdf(), {{"guided", taught.text}});
+    sums.places += static_cast<long>(path.size());
+    sums.points += taught.points;
+    Cell cell(tool, 4, 0, true, Settings{}, spec.urdf(), {{"guided", taught.text}});
+    play(cell, order, path, taught.text);
+  }
+  void play(Cell& cell, const PathOrder& order, const std::vector<GuidedPlace>& path, const std::string& text) {
     ASSERT_TRUE(cell.serve(Service::GroupEnable));
     cell.in.service.job = 2;
     cell.ask(Service::JobStart);
-    KdlPlaces where(spec, order.tool.empty() ? KDL::Frame::Identity()
-                                             : KDL::Frame(KDL::Rotation::RPY(0, kPi / 6, 0), KDL::Vector(0.01, 0.02, 0.15)));
+    const KDL::Frame pen(KDL::Rotation::RPY(0, kPi / 6, 0), KDL::Vector(0.01, 0.02, 0.15));
+    KdlPlaces where(spec, order.tool.empty() ? KDL::Frame::Identity() : pen);
+    std::vector<KDL::Vector> seen;
+    for (int period = 0; period < 60000; ++period) {
+      cell.step();
+      if (cell.out.job.state != JobState::Runs && cell.out.job.state != JobState::Idle) {
+        break;
+      }
+      if (!seen.empty() || is_at(cell, path[0])) {
+        seen.push_back(where.at(cell.out.command).tip);
+      }
+    }
+    if (cell.out.job.state == JobState::Failed) {
+      ++sums.refused;
+      fmt::print("refused: {}\n", cell.out.job.message);
+      return;
+    }
+    ASSERT_EQ(cell.out.job.state, JobState::Ended) << cell.out.job.message << "\n" << text;
+    ++sums.played;
+    compare(seen, where, path, order.tolerance);
+  }
+  [[nodiscard]] bool is_at(const Cell& cell, const GuidedPlace& place) const {
+    for (std::size_t k = 0; k < spec.parts.size(); ++k) {
+      if (!(std::abs(cell.out.command[k] - place.joints[k]) < 2e-3)) {
+        return false;
+      }
+    }
+    return true;
+  }
+  void compare(const std::vector<KDL::Vector>& seen, KdlPlaces& where, const std::vector<GuidedPlace>& path,
+               double tolerance) {
     std::vector<KDL::Vector> wanted;
     for (const GuidedPlace& one : path) {
       AxisNumbers q;
       std::copy(one.joints.begin(), one.joints.end(), q.begin());
       wanted.push_back(where.at(q).tip);
     }
-    std::vector<KDL::Vector> seen;
-    bool begun = false;
-    for (int period = 0; period < 60000; ++period) {
-      cell.step();
-      if (cell.out.job.state != JobState::Runs && cell.out.job.state != JobState::Idle) {
-        break;
-      }
-      bool there = true;
-      for (std::size_t k = 0; k < spec.parts.size(); ++k) {
-        there = there && std::abs(cell.out.command[k] - path[0].joints[k]) < 2e-3;
-      }
-      begun = begun || there;
-      if (begun) {
-        seen.push_back(where.at(cell.out.command).tip);
-      }
-    }
-    if (cell.out.job.state == JobState::Failed) {
-      ++refused;  // past a singular position, for example
-      fmt::print("{}: {}\n", i, cell.out.job.message);
-      continue;
-    }
-    ASSERT_EQ(cell.out.job.state, JobState::Ended) << cell.out.job.message << "\n" << taught.text;
-    ++played;
+    double worst = 0;
     for (const KDL::Vector& tip : seen) {
-      worst = std::max(worst, off(tip, wanted) / order.tolerance);
+      worst = std::max(worst, off(tip, wanted) / tolerance);
     }
     for (const KDL::Vector& place : wanted) {
-      worst = std::max(worst, off(place, seen) / order.tolerance);
+      worst = std::max(worst, off(place, seen) / tolerance);
     }
-    EXPECT_LE(worst, 1) << taught.text;
+    EXPECT_LE(worst, 1);
+    sums.worst = std::max(sums.worst, worst);
+  }
+};
+
+TEST_F(RandomTaughtPaths, Are_played_within_the_tolerance) {
+  const int runs = taught_runs("INDUROP_ROBOT_TAUGHT", 12);
+  const int first = taught_runs("INDUROP_ROBOT_SEED", 1);
+  for (int i = first; i < first + runs && !HasFailure(); ++i) {
+    SCOPED_TRACE(fmt::format("INDUROP_ROBOT_SEED={}", i));
+    run(i);
   }
   fmt::print("{} paths of {} places became jobs of {} points; {} played, {} refused; at most {:.2f} of the tolerance\n",
-             runs, places, points, played, refused, worst);
-  EXPECT_GE(played, runs * 3 / 4);
+             runs, sums.places, sums.points, sums.played, sums.refused, sums.worst);
+  EXPECT_GE(sums.played, runs * 19 / 20);
 }
 
 TEST_F(TaughtPaths, The_simplest_motion_that_is_near_enough_is_chosen) {
   const Folder folder;
-  const FileNames names{folder.write("arm.urdf", spec.urdf()), {folder.write("points.job", "POINT A = JOINT 0 0 0 0 90 0\n")}, {}};
+  const FileNames names{
+      folder.write("arm.urdf", spec.urdf()), {folder.write("points.job", "POINT A = JOINT 0 0 0 0 90 0\n")}, {}};
   const auto words = [&](const PathOrder& order, const std::vector<GuidedPlace>& path) {
     const TaughtPath taught = teach_path(names, order, path);
     EXPECT_EQ(taught.problem, "");
@@ -202,7 +226,8 @@ TEST_F(TaughtPaths, The_simplest_motion_that_is_near_enough_is_chosen) {
 
 TEST_F(TaughtPaths, What_cannot_be_written_is_said) {
   const Folder folder;
-  const std::string points = folder.write("points.job", "POINT A = JOINT 0 0 0 0 90 0\nPOINT two_1 = JOINT 0 0 0 0 9 0\n");
+  const std::string points =
+      folder.write("points.job", "POINT A = JOINT 0 0 0 0 90 0\nPOINT two_1 = JOINT 0 0 0 0 9 0\n");
   const FileNames names{folder.write("arm.urdf", spec.urdf()), {points}, {}};
   const std::vector<GuidedPlace> path{{{0, 0, 0, 0, 90, 0}}, {{10, 0, 0, 0, 90, 0}}};
   const auto problem = [&](const PathOrder& order, const std::vector<GuidedPlace>& places) {

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "control/robot/files/path_fit.h"
+#include "control/robot/plan/path_fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include <Eigen/SVD>
-
+#include "control/robot/kinematics/dexterity.h"
 #include "control/robot/path/spline.h"
 
 namespace indurop::robot {
 namespace {
 
-constexpr int kFine = 24;          // places of a motion that are compared, for each piece of it
-constexpr std::size_t kMost = 96;  // places of a spline
+constexpr int kFine = 24;           // places of a motion that are compared, for each piece of it
+constexpr std::size_t kMost = 96;   // places of a spline
 constexpr double kLever = 0.2;      // m: turns of the tool count as motions of a point that far from it
 constexpr double kSingular = 0.02;  // m per rad, the slowest direction of the tool
 
@@ -87,9 +86,7 @@ class Fitting {
   // follow it.
   [[nodiscard]] bool is_singular(std::size_t from, std::size_t to) const {
     for (std::size_t i = from; i <= to && arm_.count() >= 6; ++i) {
-      Eigen::MatrixXd rates = arm_.jacobian(path_[i].q).leftCols(arm_.count());
-      rates.bottomRows(3) *= kLever;
-      if (rates.jacobiSvd().singularValues()[5] < kSingular) {
+      if (slowest_direction(arm_, path_[i].q, kLever) < kSingular) {
         return true;
       }
     }
@@ -102,14 +99,20 @@ class Fitting {
       std::size_t bad = to + 1;
       while (bad - good > 1) {
         const std::size_t middle = (good + bad) / 2;
-        (fits(apart(axes(from, middle), guided(from, middle))) ? good : bad) = middle;
+        if (fits(apart(axes(from, middle), guided(from, middle)))) {
+          good = middle;
+        } else {
+          bad = middle;
+        }
       }
       out_.off = larger(out_.off, apart(axes(from, good), guided(from, good)));
       out_.motions.push_back({FitKind::Axes, {good}});
       from = good;
     }
   }
-  [[nodiscard]] bool fits(const FitTolerance& off) const { return off.way <= tolerance_.way && off.turn <= tolerance_.turn; }
+  [[nodiscard]] bool fits(const FitTolerance& off) const {
+    return off.way <= tolerance_.way && off.turn <= tolerance_.turn;
+  }
   [[nodiscard]] Poses guided(std::size_t from, std::size_t to) const {
     Poses poses;
     for (std::size_t i = from; i <= to; ++i) {
