@@ -5,6 +5,7 @@
 
 #include "guided_cell.h"
 #include "limit_judge.h"
+#include "tests/unit/allocations.h"
 
 namespace indurop::robot {
 namespace {
@@ -253,6 +254,30 @@ TEST(Guiding, Without_torques_it_is_refused) {
   cell.in.jog.frame = JogFrame::Hand;
   ASSERT_TRUE(cell.until([&] { return cell.out.error == ErrorCode::NoTorque; }, 100));
   EXPECT_FALSE(cell.out.guided);
+}
+
+TEST(Guiding, Allocates_nothing) {
+  GuidedCell::Setup setup =
+      GuidedCell::of_cell("TOOL long = POSE 0 0 100 RPY 0 0 0\nKEEPOUT zone = BOX 300 300 -500 900 400 900\n");
+  setup.workspace = {-2000, -500, -2000, 2000, 2000, 2000};
+  GuidedCell sut(setup);
+  ASSERT_TRUE(sut.enable());
+  sut.cell.in.service.tool = 1;
+  sut.cell.ask(Service::SelectTool);
+  sut.run(0.1);
+  ASSERT_TRUE(sut.go(kBent)) << to_string(sut.cell.out.error);
+  ASSERT_TRUE(sut.guide()) << sut.cell.out.job.message;
+  sut.force = {0, 60, 0};
+  std::uint64_t allocated = 0;
+  for (int i = 0; i < 500; ++i) {
+    sut.force.y() = i < 300 ? 60 + i % 5 : -60 - i % 5;
+    sut.step();
+    const std::uint64_t before = g_allocations;
+    sut.cell.step();
+    allocated += g_allocations - before;
+  }
+  EXPECT_TRUE(sut.cell.out.guided) << sut.cell.out.job.message;
+  EXPECT_EQ(allocated, 0U);
 }
 
 // Pushed into the end of an axis, the arm comes to rest before it, and is pushed away again.
