@@ -15,10 +15,10 @@ class GuideWatch {
  public:
   // What one period shows. Torques in N m, N of sliding axes.
   struct Seen {
-    Joints push = Joints::Zero();         // of the hand: measured beyond what the arm needs
-    Joints moving = Joints::Zero();       // the part of it that moves the axes
-    std::array<std::int16_t, kAxes> raw;  // as the drives report them
-    Jacobian end = Jacobian::Zero();      // of the arm's end
+    Joints push = Joints::Zero();           // of the hand: measured beyond what the arm needs
+    Joints moving = Joints::Zero();         // the part of it that moves the axes
+    std::array<std::int16_t, kAxes> raw{};  // as the drives report them
+    Jacobian end = Jacobian::Zero();        // of the arm's end
   };
 
   // Guiding begins. Real-time safe, like all functions of this class.

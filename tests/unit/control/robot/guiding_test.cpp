@@ -258,7 +258,7 @@ TEST(Guiding, Without_torques_it_is_refused) {
 
 TEST(Guiding, Allocates_nothing) {
   GuidedCell::Setup setup =
-      GuidedCell::of_cell("TOOL long = POSE 0 0 100 RPY 0 0 0\nKEEPOUT zone = BOX 300 300 -500 900 400 900\n");
+      GuidedCell::of_cell("TOOL long = POSE 0 0 100 RPY 0 0 0\nKEEPOUT zone = BOX 300 600 -500 900 700 900\n");
   setup.workspace = {-2000, -500, -2000, 2000, 2000, 2000};
   GuidedCell sut(setup);
   ASSERT_TRUE(sut.enable());
