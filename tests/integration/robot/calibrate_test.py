@@ -82,6 +82,10 @@ class Cell:
         self.wait(lambda: int(self.get("PLC_ROBOT::ROBOT_MODULE_STATE.nDone")) == number, request)
         return self.get("PLC_ROBOT::ROBOT_MODULE_STATE.nError")
 
+    def expect(self, request):
+        error = self.serve(request)
+        assert error in ("0", "ROBOT_OK"), (request, error, self.get("PLC_ROBOT::ROBOT_MODULE_STATE"))
+
     @staticmethod
     def wait(condition, what):
         end = time.monotonic() + DEADLINE_S
@@ -115,8 +119,7 @@ class Cell:
         """Moves there with the true tool."""
         tool = frame(at, numpy.radians(hand))
         joints = self.reach(tool @ numpy.linalg.inv(TRUE), [10, -10, 20, 0, 80, 0])
-        error = self.serve("eOpCode: 8, dTarget: [" + ", ".join(f"{v:.6f}" for v in joints) + "]")
-        assert error in ("0", "ROBOT_OK"), error
+        self.expect("eOpCode: 8, dTarget: [" + ", ".join(f"{v:.6f}" for v in joints) + "]")
         self.wait(lambda: numpy.abs(self.joints() - joints).max() < 0.001, "the arm to arrive")
 
     def begin(self):
@@ -126,14 +129,14 @@ class Cell:
         self.set("PLC_ROBOT::I14", "1")
         self.set("PLC_ROBOT::I15", "1")
         self.wait(lambda: self.get("PLC_ROBOT::EMERGENCY_STOP.bActive") in ("0", "false"), "the emergency stop to be released")
-        self.serve("eOpCode: 1")
+        self.expect("eOpCode: 1")
 
     def tip_at_p1(self):
         """How far the true tip is from P1 (m) once the robot has moved there with its tool."""
         self.indurop("robot", "reload", "--node", self.node)
-        self.serve("eOpCode: 14, nTool: 1")
-        self.serve("eOpCode: 8, dTarget: [0, -20, 10, 0, 100, 0]")
-        self.serve("eOpCode: 5, p_Target: 1")
+        self.expect("eOpCode: 14, nTool: 1")
+        self.expect("eOpCode: 8, dTarget: [0, -20, 10, 0, 100, 0]")
+        self.expect("eOpCode: 5, p_Target: 1")
         time.sleep(0.5)
         return numpy.linalg.norm((self.flange(self.joints()) @ TRUE)[:3, 3] - TIP)
 
