@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <optional>
 #include <vector>
@@ -63,12 +64,13 @@ class GuideLog {
     if (!now || places_.size() >= kMostPlaces) {
       return kOk;
     }
-    RobotPlace place;
-    if (const int code = read_place(context_, store_, choice_, place); code != kOk) {
-      return code;
+    const auto place = read_place(store_, choice_.space);
+    if (!place) {
+      context_.out.error(place.error().text);
+      return kFailed;
     }
-    tool_ = place.tool;
-    places_.push_back({place.stand.joints, pressed || line_typed()});
+    tool_ = place->tool;
+    places_.push_back({place->stand.joints, pressed || line_typed()});
     marks_ += places_.back().marked ? 1 : 0;
     if (places_.back().marked) {
       context_.out.note(fmt::format("point {} is marked", marks_));

@@ -6,7 +6,8 @@
 #include <cstdint>
 
 #include "tools/cli/command/verb.h"
-#include "tools/cli/robot/robot_desk.h"
+#include "tools/client/robot/robot_desk.h"
+#include "control/robot/files/teach.h"
 
 namespace indurop::tools {
 
