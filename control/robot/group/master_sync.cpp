@@ -17,7 +17,7 @@ constexpr double kMillimetre = 0.001;
 constexpr double kInStep = 0.001;     // m, distance from the wanted place that counts as none
 constexpr double kPull = 3;           // 1/s, rate at which a distance is made up for
 constexpr double kPush = 10;          // 1/s, the same for a path that is ahead
-constexpr double kSyncAhead = 0.25;        // s that a change of speed takes, about
+constexpr double kSyncAhead = 0.25;   // s that a change of speed takes, about
 constexpr double kBeginning = 0.2;    // part of full speed at which a path begins before more is known
 constexpr double kLeastShare = 0.01;  // of the tool's full speed: slower places count as that fast
 

@@ -85,9 +85,8 @@ class OnTheTarget(unittest.TestCase):
         self.guest.until(lambda said: said.strip().isdigit() and int(said) > before, RUNS)
 
     def drop_in(self, unit, name, text):
-        # The lab starts its guests without watchdogs of services, and a reload returns to that.
-        self.guest(f"mkdir -p /etc/systemd/system/{unit}.d && cat >/etc/systemd/system/{unit}.d/{name}.conf && systemctl daemon-reload && "
-                   "systemctl service-watchdogs yes", input=text.encode())
+        self.guest(f"mkdir -p /etc/systemd/system/{unit}.d && cat >/etc/systemd/system/{unit}.d/{name}.conf && systemctl daemon-reload",
+                   input=text.encode())
 
     def test_01_apt_installs_the_package(self):
         for package in options.debs.glob("indurop_*.deb"):
@@ -149,7 +148,8 @@ class OnTheTarget(unittest.TestCase):
 
     def test_07_an_agent_that_hangs_is_replaced_and_its_node_goes_on(self):
         agent, node = self.agent(), self.status()["pid"]
-        self.guest(f"kill -STOP {agent}")
+        # The lab starts its guests without watchdogs of services, and each reload of systemd (enable does one) returns to that.
+        self.guest(f"systemctl service-watchdogs yes && kill -STOP {agent}")
         self.guest.until(lambda said: said.strip() not in ("", "0", str(agent)), f"systemctl show -P MainPID {UNIT}")
         self.guest.until(lambda said: said.strip() == "active", f"systemctl is-active {UNIT}")
         self.assertTrue(self.entries(f"_PID=1 -g 'Watchdog timeout' UNIT={UNIT}"))
@@ -170,7 +170,7 @@ class OnTheTarget(unittest.TestCase):
 
     def test_09_a_machine_that_hangs_is_reset_and_the_plant_resumes_before_the_network(self):
         self.guest("mkdir -p /etc/systemd/system.conf.d && printf '[Manager]\\nRuntimeWatchdogSec=60s\\n' "
-                   ">/etc/systemd/system.conf.d/watchdog.conf && systemctl daemon-reexec && systemctl service-watchdogs yes")
+                   ">/etc/systemd/system.conf.d/watchdog.conf && systemctl daemon-reexec")
         self.guest.until(lambda said: said.strip() == "active", "cat /sys/class/watchdog/watchdog0/state")
         # The card gets its address long after the agent has said that it is ready.
         self.drop_in("lab-board.service", "late", f"[Unit]\nAfter={UNIT}\n[Service]\nExecStartPre=sleep 15\n")

@@ -5,9 +5,9 @@
 
 #include <cstdint>
 
+#include "control/robot/files/teach.h"
 #include "tools/cli/command/verb.h"
 #include "tools/client/robot/robot_desk.h"
-#include "control/robot/files/teach.h"
 
 namespace indurop::tools {
 
