@@ -22,6 +22,18 @@
 namespace indurop::node {
 namespace {
 
+// Returns how many libraries the dynamic linker has unloaded since the program began.
+unsigned long long unloaded_libraries() noexcept {
+  unsigned long long count = 0;
+  (void)::dl_iterate_phdr(
+      [](dl_phdr_info* info, std::size_t /*size*/, void* to) {
+        *static_cast<unsigned long long*>(to) = info->dlpi_subs;
+        return 1;
+      },
+      &count);
+  return count;
+}
+
 // The dynamic linker shares the globals between all that load the same file; a copy without a name is another file.
 int copy_to_memory(const std::filesystem::path& file) {
   const int from = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -158,13 +170,16 @@ void ModuleLibrary::prefault() const {
   }
 }
 
+// Another thread may load the next version meanwhile, to the same address; then the linker has counted the unloading.
 bool ModuleLibrary::unload() {
   const void* const address = inside();
   Dl_info before{};
   (void)::dladdr(address, &before);
+  const auto unloaded_before = unloaded_libraries();
   *this = ModuleLibrary();
   Dl_info after{};
-  return address == nullptr || ::dladdr(address, &after) == 0 || after.dli_fbase != before.dli_fbase;
+  return address == nullptr || ::dladdr(address, &after) == 0 || after.dli_fbase != before.dli_fbase ||
+         unloaded_libraries() != unloaded_before;
 }
 
 void ModuleLibrary::abandon() noexcept {
