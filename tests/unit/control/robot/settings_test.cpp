@@ -99,6 +99,7 @@ TEST_F(Robot_settings, Of_robots_that_share_their_space_are_refused_if_they_do_n
   EXPECT_THAT(wrong(), ElementsAre(HasSubstr("base_in_cell: it has to be a pose")));
 }
 
+// Long: it is a list of all properties.
 TEST_F(Robot_settings, All_of_them_are_taken) {
   const std::map<std::string, std::string> texts = {{"counts_per_turn", "10 -20 30 40 50 60"},
                                                     {"counts_per_mm", "11"},
@@ -107,6 +108,9 @@ TEST_F(Robot_settings, All_of_them_are_taken) {
                                                     {"rotor_inertia", "1 2 0 4 5 6"},
                                                     {"rated_torque", "1 1 1 1 1 2"},
                                                     {"collision_limit", "1 1 1 1 1 3"},
+                                                    {"guide_mass", "12"},
+                                                    {"guide_damping", "80"},
+                                                    {"guide_threshold", "0 1 2 3 4 5"},
                                                     {"time_to_speed", " 0.5\n"},
                                                     {"time_to_acceleration", "+1"},
                                                     {"tool_speed", "1e3"},
@@ -135,6 +139,9 @@ TEST_F(Robot_settings, All_of_them_are_taken) {
   EXPECT_THAT(settings.rotor_inertia, ElementsAre(1, 2, 0, 4, 5, 6));
   EXPECT_THAT(settings.rated_torque, ElementsAre(1, 1, 1, 1, 1, 2));
   EXPECT_THAT(settings.collision_limit, ElementsAre(1, 1, 1, 1, 1, 3));
+  EXPECT_EQ(settings.guide_mass, 12);
+  EXPECT_EQ(settings.guide_damping, 80);
+  EXPECT_THAT(settings.guide_threshold, ElementsAre(0, 1, 2, 3, 4, 5));
   EXPECT_EQ(settings.time_to_speed, 0.5);
   EXPECT_EQ(settings.time_to_acceleration, 1);
   EXPECT_EQ(settings.tool_speed, 1000);

@@ -88,9 +88,10 @@ AccessGateSettings settings_of(bool loopback, bool write) {
 // The level that a request needs, by the last word of its path.
 int level_of(const Request& request) {
   static const std::map<std::string, int> kLevels{
-      {"set", 2},     {"ack", 2},     {"jog", 2},  {"keep", 2},     {"load", 2},   {"call", 2},     {"force", 3},
-      {"release", 3}, {"renew", 3},   {"save", 3}, {"remove", 3},   {"shelve", 3}, {"unshelve", 3}, {"start", 4},
-      {"stop", 4},    {"restart", 4}, {"lock", 4}, {"rollback", 4}, {"replay", 4}};
+      {"set", 2},      {"ack", 2},     {"jog", 2},   {"keep", 2},    {"load", 2},   {"call", 2},
+      {"force", 3},    {"release", 3}, {"renew", 3}, {"save", 3},    {"remove", 3}, {"shelve", 3},
+      {"unshelve", 3}, {"start", 4},   {"stop", 4},  {"restart", 4}, {"lock", 4},   {"rollback", 4},
+      {"replay", 4},   {"take", 3},    {"drop", 3},  {"accept", 3}};
   if ((!request.stream && !request.path.starts_with("/api/") && request.path != "/metrics") ||
       (request.method == Method::Post && request.path == "/api/v1/session")) {
     return 0;
