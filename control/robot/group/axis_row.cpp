@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "control/robot/path/rates.h"
+
 namespace indurop::robot {
 
 namespace {
@@ -26,7 +28,7 @@ AxisRow::AxisRow(const GroupParts& parts, CommandTable& table, const ToolTravel*
   const auto count = static_cast<std::size_t>(count_);
   const int first = travel != nullptr ? parts.arm.count() : 0;
   for (int i = 0; i < count_; ++i) {
-    const LineLimits limits{limits_.velocity[i], limits_.acceleration[i], limits_.jerk[i]};
+    const LineLimits limits = limits_of_axis(limits_, i);
     const Axis& axis = travel != nullptr ? parts.singles[at(i)] : parts.arm.axis(i);
     axes_[at(i)].set_up(axis, limits, scale_of(settings, axis, at(first + i)), settings.absolute, &table,
                         {{axes_.data(), count}, {gates_.data(), count}, cams_, &profiles_, i, first, travel});
@@ -172,7 +174,7 @@ void AxisRow::give_up_power() noexcept {
 double AxisRow::stops(std::array<Profile, kAxes>& stops) const noexcept {
   double longest = 0;
   for (int i = 0; i < count_; ++i) {
-    const LineLimits limits{limits_.velocity[i], limits_.acceleration[i], limits_.jerk[i]};
+    const LineLimits limits = limits_of_axis(limits_, i);
     stops[at(i)] = Profile::to_velocity(axes_[at(i)].commanded(), 0, limits);
     longest = std::max(longest, stops[at(i)].duration());
   }

@@ -9,6 +9,7 @@
 #include "control/robot/group/mode_guard.h"
 #include "control/robot/kinematics/settings.h"
 #include "control/robot/kinematics/tip_speed.h"
+#include "control/robot/path/rates.h"
 
 namespace indurop::robot {
 
@@ -176,8 +177,7 @@ Joints Guiding::shaped() noexcept {
 
 void Guiding::follow(int axis, double velocity) noexcept {
   AxisControl& a = robot_.axes[axis];
-  const JointLimits& most = robot_.parts.joints;
-  const LineLimits limits{most.velocity[axis], most.acceleration[axis], most.jerk[axis]};
+  const LineLimits limits = limits_of_axis(robot_.parts.joints, axis);
   a.follow(Profile::to_velocity(a.commanded(), velocity, limits).at(robot_.period));
 }
 

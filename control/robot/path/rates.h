@@ -16,6 +16,11 @@ struct Shares {
   static constexpr double kMixedJerk = 0.2;
 };
 
+// Returns the limits of one axis, from 0. Real-time safe.
+inline LineLimits limits_of_axis(const JointLimits& joints, int axis) noexcept {
+  return {joints.velocity[axis], joints.acceleration[axis], joints.jerk[axis]};
+}
+
 // Absolute first, second and third derivatives, in rad per s at full speed.
 struct Rates {
   Joints first = Joints::Zero();

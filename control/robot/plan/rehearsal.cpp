@@ -99,7 +99,7 @@ void Rehearsal::check_rest(const Joints& velocity, const Joints& acceleration) n
     if (axis.endless) {
       continue;
     }
-    const LineLimits limits{joints_.velocity[i], joints_.acceleration[i], joints_.jerk[i]};
+    const LineLimits limits = limits_of_axis(joints_, i);
     const double above = kRoomForRest * std::max(0.0, axis.upper - seen_[0][i]) + kRounding;
     const double below = kRoomForRest * std::max(0.0, seen_[0][i] - axis.lower) + kRounding;
     const double slower = std::max(slower_for_rest(above, velocity[i], acceleration[i], limits, kSlowestForRest),
