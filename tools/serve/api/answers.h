@@ -93,6 +93,14 @@ Reply restart_module(Api& api, const Call& call);
 Result<Board*, Reply> board_of(const Call& call);
 // Returns a JSON object with the board's name in "board".
 base::Json about(const Board& board);
+// Returns a JSON array of these numbers.
+base::Json list_of(const auto& numbers) {
+  base::Json list = base::Json::array();
+  for (const double number : numbers) {
+    list.push_back(number);
+  }
+  return list;
+}
 // Returns a number of the query, or `usual` if the query does not have it; nothing if it is not a number or not in
 // least..most.
 std::optional<std::uint64_t> query_number(const Call& call, std::string_view name, std::uint64_t usual,

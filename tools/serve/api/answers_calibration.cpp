@@ -37,15 +37,6 @@ std::optional<Chosen> chosen_in(const Call& call) {
   return out;
 }
 
-template <class Numbers>
-base::Json numbers_of(const Numbers& numbers) {
-  base::Json list = base::Json::array();
-  for (const double one : numbers) {
-    list.push_back(one);
-  }
-  return list;
-}
-
 void add_calibration(base::Json& body, const Calibration& now) {
   base::Json points = base::Json::array();
   for (const robot::CalibrationPoint& one : now.points) {
@@ -66,8 +57,8 @@ void add_calibration(base::Json& body, const Calibration& now) {
   body["sigma"] = now.sigma;
   body["spare"] = now.spare;
   body["turned"] = now.turned;
-  body["place_deviation"] = numbers_of(now.place_deviation);
-  body["turn_deviation"] = numbers_of(now.turn_deviation);
+  body["place_deviation"] = list_of(now.place_deviation);
+  body["turn_deviation"] = list_of(now.turn_deviation);
   body["scale"] = now.scale;
 }
 

@@ -29,14 +29,6 @@ bool runs_in(const tools::RunView& run, const std::string& name) {
   return false;
 }
 
-base::Json list_of(const auto& numbers) {
-  base::Json list = base::Json::array();
-  for (const double number : numbers) {
-    list.push_back(number);
-  }
-  return list;
-}
-
 base::Json list_of_bodies(const std::vector<robot::ListedBody>& bodies) {
   base::Json list = base::Json::array();
   for (const robot::ListedBody& body : bodies) {
