@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "control/robot/kinematics/geometry.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
@@ -24,8 +25,7 @@ enum class Kind { Tip, Tool, Frame, Camera, HandCamera };
 constexpr std::array kAll{Kind::Tip, Kind::Tool, Kind::Frame, Kind::Camera, Kind::HandCamera};
 
 int calibrations(int usual) {
-  const char* const set = std::getenv("INDUROP_ROBOT_CALIBRATIONS");
-  return set == nullptr ? usual : std::atoi(set);
+  return number_of("INDUROP_ROBOT_CALIBRATIONS", usual);
 }
 
 class Calibration_of : public testing::Test {

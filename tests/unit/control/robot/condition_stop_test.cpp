@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <random>
 
@@ -18,11 +17,6 @@
 
 namespace indurop::robot {
 namespace {
-
-long from_environment_or(const char* name, long otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtol(text, nullptr, 10);
-}
 
 class Condition_stop : public testing::TestWithParam<const char*> {
  protected:
@@ -121,8 +115,8 @@ class Condition_stop : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(Condition_stop, Of_a_joint_motion_keeps_all_limits) {
-  const long first = from_environment_or("INDUROP_ROBOT_SEED", 1);
-  const long many = from_environment_or("INDUROP_ROBOT_STOPS", 200);
+  const long first = number_of("INDUROP_ROBOT_SEED", 1);
+  const long many = number_of("INDUROP_ROBOT_STOPS", 200);
   for (long seed = first; seed < first + many; ++seed) {
     EXPECT_EQ(run(seed, Move::Joint).value_or(""), "") << "seed " << seed;
   }
@@ -130,8 +124,8 @@ TEST_P(Condition_stop, Of_a_joint_motion_keeps_all_limits) {
 
 // The last gate ends the few that cannot be stopped as hard as that on their path.
 TEST_P(Condition_stop, Of_a_line_or_circle_hardly_ever_breaks_one) {
-  const long first = from_environment_or("INDUROP_ROBOT_SEED", 1);
-  const long many = from_environment_or("INDUROP_ROBOT_STOPS", 40);
+  const long first = number_of("INDUROP_ROBOT_SEED", 1);
+  const long many = number_of("INDUROP_ROBOT_STOPS", 40);
   long beyond = 0;
   for (long seed = first; seed < first + many; ++seed) {
     const std::string broken = run(seed, seed % 2 == 0 ? Move::Line : Move::Circle).value_or("");

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <random>
 
 #include "control/robot/path/chain.h"
@@ -20,11 +19,6 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kRounding = 1e-4;  // what the gate lets pass
-
-int setting(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : static_cast<int>(std::strtol(text, nullptr, 10));
-}
 
 class Disturbed {
  public:
@@ -163,8 +157,8 @@ class Disturbed {
 class Disturbed_paths : public testing::TestWithParam<bool> {};
 
 TEST_P(Disturbed_paths, Keep_all_limits_before_any_gate) {
-  const int first = setting("INDUROP_ROBOT_SEED", 1);
-  const int many = setting("INDUROP_ROBOT_PATHS", 400);
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
+  const int many = number_of("INDUROP_ROBOT_PATHS", 400);
   int bad = 0;
   for (int i = 0; i < many; ++i) {
     const auto seed = static_cast<unsigned>(first + i);

@@ -5,19 +5,14 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <utility>
 #include <vector>
 
 #include "command_cell.h"
 #include "limit_judge.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
-
-inline long from_environment(const char* name, long otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtol(text, nullptr, 10);
-}
 
 class FollowCell : public testing::Test, public CommandCell {
  public:

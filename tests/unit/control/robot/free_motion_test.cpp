@@ -6,22 +6,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <ctime>
 #include <map>
 #include <random>
 
 #include "limit_judge.h"
 #include "ompl_reference.h"
+#include "robot_fixture.h"
 #include "scene.h"
 
 namespace indurop::robot {
 namespace {
-
-int number_of(const char* name, int usual) {
-  const char* const text = std::getenv(name);
-  return text == nullptr ? usual : std::atoi(text);
-}
 
 class Free_motion : public testing::Test {
  protected:

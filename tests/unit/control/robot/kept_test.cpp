@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <iterator>
 #include <random>
 #include <string>
@@ -18,14 +17,10 @@
 
 #include "command_cell.h"
 #include "random_job.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
-
-int number_in(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::atoi(text);
-}
 
 bool same(const DriveOut& a, const DriveOut& b) {
   return std::tie(a.control, a.mode, a.position, a.probe, a.torque_offset, a.torque) ==
@@ -164,8 +159,8 @@ class Kept : public testing::Test {
 };
 
 TEST_F(Kept, Controllers_that_take_turns_do_what_one_does) {
-  const int first = number_in("INDUROP_ROBOT_SEED", 1);
-  const int jobs = number_in("INDUROP_ROBOT_JOBS", 40);
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
+  const int jobs = number_of("INDUROP_ROBOT_JOBS", 40);
   for (int i = 0; i < jobs && !HasFatalFailure(); ++i) {
     const auto seed = static_cast<unsigned>(first + i);
     run(seed, seed % 3 == 0 ? 1 : seed % 3 == 1 ? 4 : 10, seed % 2 == 0 ? cell_urdf() : solid_cell_urdf());

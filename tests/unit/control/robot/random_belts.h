@@ -4,10 +4,10 @@
 #pragma once
 
 #include <cmath>
-#include <cstdlib>
 #include <random>
 
 #include "belt_cell.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 
@@ -55,10 +55,5 @@ class RandomBelts : public Belts {
   Eight from{}, on_it{};
   double near = 0;
 };
-
-inline int number_of(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::atoi(text) : otherwise;
-}
 
 }  // namespace indurop::robot

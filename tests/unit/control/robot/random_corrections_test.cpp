@@ -7,14 +7,10 @@
 #include <random>
 
 #include "corrected_cell.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
-
-int number_of(const char* name, int usual) {
-  const char* const text = std::getenv(name);
-  return text == nullptr ? usual : std::atoi(text);
-}
 
 class Random_corrections : public CorrectedCell {
  protected:

@@ -15,16 +15,12 @@
 #include "drive_faults.h"
 #include "limit_judge.h"
 #include "random_job.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
 
 constexpr std::uint32_t kFirstMotion = 5;  // line of job_of_lines()
-
-int elbow_setting(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::atoi(text);
-}
 
 class Random_elbows : public testing::TestWithParam<const char*> {
  protected:
@@ -171,9 +167,9 @@ class Random_elbows : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(Random_elbows, Break_no_limit_whatever_happens) {
-  const int first = elbow_setting("INDUROP_ROBOT_SEED", 1);
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
   std::map<std::string, int> ends;
-  for (int seed = first; seed < first + elbow_setting("INDUROP_ROBOT_ELBOWS", 30); ++seed) {
+  for (int seed = first; seed < first + number_of("INDUROP_ROBOT_ELBOWS", 30); ++seed) {
     random.seed(static_cast<unsigned>(seed));
     const double period_ms = std::array{1.0, 4.0, 10.0}[static_cast<std::size_t>(seed) % 3];
     const std::string job = job_of_all();
@@ -274,10 +270,10 @@ class Lines_with_elbows : public Random_elbows {
 };
 
 TEST_P(Lines_with_elbows, Are_the_same_at_any_override_and_behind_stops) {
-  const int first = elbow_setting("INDUROP_ROBOT_SEED", 1);
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
   int many = 0;
   int moved = 0;
-  for (int seed = first; seed < first + elbow_setting("INDUROP_ROBOT_ELBOWS", 20); ++seed) {
+  for (int seed = first; seed < first + number_of("INDUROP_ROBOT_ELBOWS", 20); ++seed) {
     SCOPED_TRACE(seed);
     random.seed(static_cast<unsigned>(seed));
     const std::string job = job_of_lines();

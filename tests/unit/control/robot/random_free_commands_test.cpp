@@ -5,21 +5,16 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <random>
 
 #include "free_command_cell.h"
+#include "robot_fixture.h"
 #include "scene.h"
 
 namespace indurop::robot {
 namespace {
 
 using Eight = std::array<double, 8>;
-
-int setting_of(const char* name, int usual) {
-  const char* const text = std::getenv(name);
-  return text == nullptr ? usual : std::atoi(text);
-}
 
 // What the drives get from the start of the motion to its end.
 using SetPoints = std::vector<std::pair<AxisNumbers, std::array<std::int32_t, 6>>>;
@@ -62,8 +57,8 @@ class Free_command_scenes : public Free_command {
 };
 
 TEST_F(Free_command_scenes, Has_the_set_points_of_a_job_to_the_last_bit) {
-  const int scenes = setting_of("INDUROP_ROBOT_SCENES", 12);
-  const int first = setting_of("INDUROP_ROBOT_SEED", 1);
+  const int scenes = number_of("INDUROP_ROBOT_SCENES", 12);
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
   int found = 0, by_pose = 0;
   for (int each = first; each < first + scenes && !HasFailure(); ++each) {
     const Scene scene(static_cast<unsigned>(each));
@@ -179,8 +174,8 @@ class Free_command_disturbed : public Free_command_scenes {
 };
 
 TEST_F(Free_command_disturbed, Leaves_the_arm_clear_and_within_its_limits) {
-  const int scenes = setting_of("INDUROP_ROBOT_SCENES", 12);
-  const int first = setting_of("INDUROP_ROBOT_SEED", 1);
+  const int scenes = number_of("INDUROP_ROBOT_SCENES", 12);
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
   int arrived = 0, searching = 0, tried = 0;
   for (int each = first; each < first + scenes && !HasFailure(); ++each) {
     const Scene scene(static_cast<unsigned>(each));

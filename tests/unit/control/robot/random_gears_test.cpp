@@ -9,6 +9,7 @@
 
 #include "control/robot/axis/cam.h"
 #include "follow_cell.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
@@ -122,8 +123,8 @@ class RandomGears : public FollowCell {
 };
 
 TEST(RandomGear, Breaks_no_limit_and_keeps_the_ratio) {
-  const long runs = from_environment("INDUROP_ROBOT_GEARS", 40);
-  const long first = from_environment("INDUROP_ROBOT_SEED", 1);
+  const long runs = number_of("INDUROP_ROBOT_GEARS", 40);
+  const long first = number_of("INDUROP_ROBOT_SEED", 1);
   long geared = 0;
   for (long i = first; i < first + runs && !HasFailure(); ++i) {
     SCOPED_TRACE(fmt::format("INDUROP_ROBOT_SEED={}", i));

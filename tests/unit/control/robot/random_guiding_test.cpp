@@ -5,20 +5,15 @@
 // orocos-kdl places them. INDUROP_ROBOT_HANDS says how many runs, INDUROP_ROBOT_SEED from which one on.
 #include <fmt/core.h>
 
-#include <cstdlib>
 #include <memory>
 #include <optional>
 
 #include "guided_cell.h"
 #include "limit_judge.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
-
-int number_of(const char* name, int usual) {
-  const char* const text = std::getenv(name);
-  return text == nullptr ? usual : std::atoi(text);
-}
 
 struct Bounds {
   Vec3 lower = Vec3::Zero(), upper = Vec3::Zero();

@@ -9,13 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <random>
 #include <utility>
 
 #include "limit_judge.h"
 #include "random_job.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
@@ -131,14 +131,9 @@ class Random_jobs : public testing::Test {
   }
 };
 
-int setting(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::atoi(text);
-}
-
 TEST_F(Random_jobs, Break_no_limit_whatever_happens) {
-  const int first = setting("INDUROP_ROBOT_SEED", 1);
-  const int jobs = setting("INDUROP_ROBOT_JOBS", 600);
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
+  const int jobs = number_of("INDUROP_ROBOT_JOBS", 600);
   for (int i = 0; i < jobs; ++i) {
     run(static_cast<unsigned>(first + i));
     if (HasFatalFailure()) {
@@ -154,8 +149,8 @@ TEST_F(Random_jobs, Break_no_limit_whatever_happens) {
 
 // The same of jobs that compute places and end motions by conditions.
 TEST_F(Random_jobs, That_compute_and_search_break_no_limit_either) {
-  const int first = setting("INDUROP_ROBOT_SEED", 1);
-  const int jobs = setting("INDUROP_ROBOT_JOBS", 1500) / 50;
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
+  const int jobs = number_of("INDUROP_ROBOT_JOBS", 1500) / 50;
   for (int i = 0; i < jobs; ++i) {
     run_computing(static_cast<unsigned>(first + i));
     if (HasFatalFailure()) {
@@ -179,8 +174,8 @@ TEST_F(Random_jobs, That_were_planned_too_long_or_stopped_by_the_gate_are_not_an
 class Random_jobs_of_arms : public Random_jobs, public testing::WithParamInterface<const char*> {};
 
 TEST_P(Random_jobs_of_arms, Break_no_limit_either) {
-  const int first = setting("INDUROP_ROBOT_SEED", 1);
-  const int jobs = setting("INDUROP_ROBOT_JOBS", 1500) / 50;
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
+  const int jobs = number_of("INDUROP_ROBOT_JOBS", 1500) / 50;
   for (int i = 0; i < jobs; ++i) {
     constexpr std::array kPeriods{1.0, 2.0, 3.0, 4.0, 5.0, 8.0, 10.0};
     const auto seed = static_cast<unsigned>(first + i);
@@ -201,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Random_jobs_of_arms,
 
 // The same for single axes that are asked for one motion after the other.
 TEST_F(Random_jobs, Single_axes_break_no_limit_either) {
-  const auto many = static_cast<unsigned>(setting("INDUROP_ROBOT_JOBS", 1500) / 25);
+  const auto many = static_cast<unsigned>(number_of("INDUROP_ROBOT_JOBS", 1500) / 25);
   for (unsigned seed = 1; seed <= many; ++seed) {
     std::mt19937 random(seed);
     const double period_ms = seed % 3 == 0 ? 1 : seed % 3 == 1 ? 4 : 10;

@@ -8,13 +8,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "group_cell.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
@@ -229,14 +229,9 @@ class Dialogue {
   bool disturbed_ = false;
 };
 
-int number_in(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::atoi(text);
-}
-
 TEST(Random_questions, Are_answered_as_the_model_says) {
-  const int first = number_in("INDUROP_ROBOT_SEED", 1);
-  const int jobs = number_in("INDUROP_ROBOT_JOBS", 20);
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
+  const int jobs = number_of("INDUROP_ROBOT_JOBS", 20);
   int taken = 0;
   int rejected = 0;
   int late = 0;

@@ -6,19 +6,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <map>
 #include <random>
 
+#include "robot_fixture.h"
 #include "two_robots.h"
 
 namespace indurop::robot {
 namespace {
-
-int setting(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::atoi(text);
-}
 
 // Motions all around, most of them in front of the robot.
 std::string random_motions(std::mt19937& random) {
@@ -164,8 +159,8 @@ class Random_spaces : public testing::Test {
 };
 
 TEST_F(Random_spaces, Robots_never_touch) {
-  const int first = setting("INDUROP_ROBOT_SEED", 1);
-  const int many = setting("INDUROP_ROBOT_SPACES", 12);
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
+  const int many = number_of("INDUROP_ROBOT_SPACES", 12);
   for (int i = 0; i < many; ++i) {
     run(static_cast<unsigned>(first + i), true, false);
     if (HasFatalFailure()) {
@@ -179,8 +174,8 @@ TEST_F(Random_spaces, Robots_never_touch) {
 }
 
 TEST_F(Random_spaces, Robots_never_touch_whatever_happens) {
-  const int first = setting("INDUROP_ROBOT_SEED", 1001);
-  const int many = setting("INDUROP_ROBOT_SPACES", 12);
+  const int first = number_of("INDUROP_ROBOT_SEED", 1001);
+  const int many = number_of("INDUROP_ROBOT_SPACES", 12);
   for (int i = 0; i < many; ++i) {
     run(static_cast<unsigned>(first + i), true, true);
     if (HasFatalFailure()) {

@@ -7,15 +7,11 @@
 
 #include <cstdlib>
 
+#include "robot_fixture.h"
 #include "torque_cell.h"
 
 namespace indurop::robot {
 namespace {
-
-int number_of(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::atoi(text);
-}
 
 class RandomTorques {
  public:

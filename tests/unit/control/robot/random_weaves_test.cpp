@@ -5,21 +5,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <random>
 
 #include "drive_faults.h"
 #include "limit_judge.h"
+#include "robot_fixture.h"
 #include "weave_reference.h"
 
 namespace indurop::robot {
 namespace {
-
-int runs_of(const char* name, int usual) {
-  const char* const text = std::getenv(name);
-  return text == nullptr ? usual : std::atoi(text);
-}
 
 class Random_weaves : public testing::Test {
  protected:
@@ -195,8 +190,8 @@ class Random_weaves : public testing::Test {
 };
 
 TEST_F(Random_weaves, The_tip_is_on_its_wave_and_no_limit_is_broken) {
-  const int runs = runs_of("INDUROP_ROBOT_WEAVES", 30);
-  const int seed = runs_of("INDUROP_ROBOT_SEED", 1);
+  const int runs = number_of("INDUROP_ROBOT_WEAVES", 30);
+  const int seed = number_of("INDUROP_ROBOT_SEED", 1);
   int good = 0;
   std::map<std::string, int> refused;
   for (int each = seed; each < seed + runs && !HasFailure(); ++each) {

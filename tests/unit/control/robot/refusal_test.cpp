@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <optional>
 
@@ -18,11 +17,6 @@
 
 namespace indurop::robot {
 namespace {
-
-long from_environment(const char* name, long otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtol(text, nullptr, 10);
-}
 
 std::string urdf_called(const std::string& name) {
   const std::map<std::string, ArmSpec (*)()> specs{
@@ -132,8 +126,8 @@ class Refusal : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(Refusal, Takes_no_more_than_its_work) {
-  const long motions = from_environment("INDUROP_ROBOT_REFUSALS", 60);
-  const long first = from_environment("INDUROP_ROBOT_SEED", 1);
+  const long motions = number_of("INDUROP_ROBOT_REFUSALS", 60);
+  const long first = number_of("INDUROP_ROBOT_SEED", 1);
   std::map<ErrorCode, long> seen;
   int most = 0;
   int most_done = 0;

@@ -103,9 +103,13 @@ Target pose_near(const Arm& arm, Joints q, double far, std::mt19937& random) {
   return target;
 }
 
+int number_of(const char* name, int otherwise) {
+  const char* const text = std::getenv(name);
+  return text == nullptr ? otherwise : std::atoi(text);
+}
+
 int poses(int usual) {
-  const char* wanted = std::getenv("INDUROP_ROBOT_POSES");
-  return wanted != nullptr ? std::atoi(wanted) : usual;
+  return number_of("INDUROP_ROBOT_POSES", usual);
 }
 
 double distance(const Pose& a, const Pose& b) {

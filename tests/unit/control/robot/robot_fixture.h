@@ -38,6 +38,8 @@ std::unique_ptr<Controller> controller_of(const std::string& urdf, const std::st
 Joints anywhere(const Arm& arm, std::mt19937& random, double margin = 0.01);
 // A pose of the arm with each joint at most `far` (rad) from `q`.
 Target pose_near(const Arm& arm, Joints q, double far, std::mt19937& random);
+// The number in this environment variable, if it is set.
+int number_of(const char* name, int otherwise);
 // How many poses of each arm: INDUROP_ROBOT_POSES, if that is set.
 int poses(int usual);
 double distance(const Pose& a, const Pose& b);

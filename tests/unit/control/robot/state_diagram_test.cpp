@@ -15,14 +15,10 @@
 
 #include "command_cell.h"
 #include "heavy_arm.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
-
-long from_environment(const char* name, long otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtol(text, nullptr, 10);
-}
 
 // What may follow in the next period, whatever caused it. A motion may end and another one begin in the same period, so
 // that the state between them is not seen.
@@ -367,8 +363,8 @@ class GroupDiagram : public Diagram {
 };
 
 TEST(StateDiagram, Of_an_axis_by_random_commands) {
-  const long runs = from_environment("INDUROP_ROBOT_DIAGRAMS", 40);
-  const long first = from_environment("INDUROP_ROBOT_SEED", 1);
+  const long runs = number_of("INDUROP_ROBOT_DIAGRAMS", 40);
+  const long first = number_of("INDUROP_ROBOT_SEED", 1);
   long followed = 0;
   long pushed = 0;
   for (long i = first; i < first + runs && !HasFailure(); ++i) {
@@ -383,8 +379,8 @@ TEST(StateDiagram, Of_an_axis_by_random_commands) {
 }
 
 TEST(StateDiagram, Of_the_group_by_random_commands) {
-  const long runs = from_environment("INDUROP_ROBOT_DIAGRAMS", 10);
-  const long first = from_environment("INDUROP_ROBOT_SEED", 1);
+  const long runs = number_of("INDUROP_ROBOT_DIAGRAMS", 10);
+  const long first = number_of("INDUROP_ROBOT_SEED", 1);
   for (long i = first; i < first + runs && !HasFailure(); ++i) {
     SCOPED_TRACE(fmt::format("INDUROP_ROBOT_SEED={}", i));
     GroupDiagram(static_cast<unsigned>(i)).run(3000);

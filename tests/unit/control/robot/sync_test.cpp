@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "follow_cell.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
@@ -380,8 +381,8 @@ class RandomSync : public SyncCell {
 };
 
 TEST(RandomSyncs, Break_no_limit_and_are_exact) {
-  const long runs = from_environment("INDUROP_ROBOT_GEARS", 40);
-  const long first = from_environment("INDUROP_ROBOT_SEED", 1);
+  const long runs = number_of("INDUROP_ROBOT_GEARS", 40);
+  const long first = number_of("INDUROP_ROBOT_SEED", 1);
   long synced = 0;
   long shifted = 0;
   for (long i = first; i < first + runs && !HasFailure(); ++i) {

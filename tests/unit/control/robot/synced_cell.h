@@ -14,6 +14,7 @@
 #include "command_cell.h"
 #include "drive_faults.h"
 #include "limit_judge.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 
@@ -125,10 +126,5 @@ class SyncedCell : public CommandCell {
   Judge judge_;
   KdlPlaces places_;
 };
-
-inline long number_of(const char* name, long otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtol(text, nullptr, 10);
-}
 
 }  // namespace indurop::robot

@@ -16,16 +16,12 @@
 #include "control/robot/files/teach.h"
 #include "drive_faults.h"
 #include "group_cell.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
 
 using testing::HasSubstr;
-
-int taught_runs(const char* name, int usual) {
-  const char* const text = std::getenv(name);
-  return text == nullptr ? usual : std::atoi(text);
-}
 
 class Folder {
  public:
@@ -180,8 +176,8 @@ class RandomTaughtPaths : public TaughtPaths {
 };
 
 TEST_F(RandomTaughtPaths, Are_played_within_the_tolerance) {
-  const int runs = taught_runs("INDUROP_ROBOT_TAUGHT", 12);
-  const int first = taught_runs("INDUROP_ROBOT_SEED", 1);
+  const int runs = number_of("INDUROP_ROBOT_TAUGHT", 12);
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
   for (int i = first; i < first + runs && !HasFailure(); ++i) {
     SCOPED_TRACE(fmt::format("INDUROP_ROBOT_SEED={}", i));
     run(i);

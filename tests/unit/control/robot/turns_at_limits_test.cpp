@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <random>
@@ -16,15 +15,11 @@
 
 #include "control/robot/axis/set_point_gate.h"
 #include "control/robot/path/follower.h"
+#include "control/robot/path/rates.h"
 #include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
-
-int number(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : static_cast<int>(std::strtol(text, nullptr, 10));
-}
 
 // An arm with what plans its motions.
 struct LimitedArm {
@@ -122,8 +117,7 @@ class Turning {
     std::vector<SetPointGate> gates;
     for (int k = 0; k < limited.arm.count(); ++k) {
       const Axis& axis = limited.arm.axis(k);
-      gates.emplace_back(SetPointGate::Range{axis.lower, axis.upper, axis.endless},
-                         LineLimits{limits.velocity[k], limits.acceleration[k], limits.jerk[k]}, period_);
+      gates.emplace_back(SetPointGate::Range{axis.lower, axis.upper, axis.endless}, limits_of_axis(limits, k), period_);
       gates.back().stand(from[k]);
     }
     follower.add(limited.planner.segment(), Blend{});
@@ -159,8 +153,8 @@ class Turning {
 class Turns_at_limits : public testing::TestWithParam<bool> {};
 
 TEST_P(Turns_at_limits, Pass_the_last_gate) {
-  const int first = number("INDUROP_ROBOT_SEED", 1);
-  const int many = number("INDUROP_ROBOT_PATHS", 300);
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
+  const int many = number_of("INDUROP_ROBOT_PATHS", 300);
   std::array<int, 3> ends{};
   int stopped = 0;
   double slowest = 1;

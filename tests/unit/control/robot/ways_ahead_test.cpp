@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <random>
 #include <vector>
 
 #include "group_cell.h"
 #include "random_job.h"
+#include "robot_fixture.h"
 
 namespace indurop::robot {
 namespace {
@@ -183,14 +183,9 @@ class Ways_ahead : public testing::Test {
   }
 };
 
-int setting(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::atoi(text);
-}
-
 TEST_F(Ways_ahead, Are_those_that_the_tool_goes) {
-  const int first = setting("INDUROP_ROBOT_SEED", 1);
-  const int jobs = setting("INDUROP_ROBOT_JOBS", 40);
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
+  const int jobs = number_of("INDUROP_ROBOT_JOBS", 40);
   for (int i = 0; i < jobs && !HasFatalFailure(); ++i) {
     run(static_cast<unsigned>(first + i), cell_urdf());
   }
@@ -200,8 +195,8 @@ TEST_F(Ways_ahead, Are_those_that_the_tool_goes) {
 }
 
 TEST_F(Ways_ahead, Of_other_arms_too) {
-  const int first = setting("INDUROP_ROBOT_SEED", 1);
-  const int jobs = setting("INDUROP_ROBOT_JOBS", 40) / 10;
+  const int first = number_of("INDUROP_ROBOT_SEED", 1);
+  const int jobs = number_of("INDUROP_ROBOT_JOBS", 40) / 10;
   for (const char* arm : {"delta", "five_axis", "gantry", "iiwa14", "palletiser", "scara", "turntable", "ur5"}) {
     for (int i = 0; i < jobs && !HasFatalFailure(); ++i) {
       run(static_cast<unsigned>(first + i), urdf_of(arm));
