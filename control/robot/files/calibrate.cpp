@@ -13,6 +13,7 @@
 #include "control/robot/files/calibration_file.h"
 #include "control/robot/files/change_files.h"
 #include "control/robot/files/read_files.h"
+#include "control/robot/job/near_name.h"
 #include "control/robot/job/point_lines.h"
 #include "control/robot/job/text.h"
 #include "core/base/read_file.h"
@@ -87,12 +88,6 @@ Work begin(const FileNames& names, const CalibrationOrder& order) {
   return work;
 }
 
-template <class T>
-const T* declared(const std::vector<T>& all, const std::string& name) {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const T& one) { return one.name == name; });
-  return found == all.end() ? nullptr : &*found;
-}
-
 // What a statement says behind its pose: "MASS 1.2 kg CENTRE 0 0 60".
 std::string mass_in(std::string_view statement) {
   for (const JobToken& token : split_job_line(statement)) {
@@ -117,11 +112,11 @@ void find_declaration(Work& work, const T* before) {
 
 void declare(Work& work) {
   const std::string& name = work.order.name;
-  const Tool* const tool = declared(work.read.book.tools, name);
+  const Tool* const tool = named(work.read.book.tools, name);
   if (is_tool(work.order.kind)) {
     find_declaration(work, tool);
   } else {
-    find_declaration(work, declared(work.read.book.frames, name));
+    find_declaration(work, named(work.read.book.frames, name));
   }
   if (!work.shown.wrong.empty()) {
     return;
@@ -164,10 +159,14 @@ void copy_figures(const Calibrated& fit, Calibration& to) {
   }
 }
 
-// Everything that follows from the text of the points.
-void compute(Work& work) {
+void parse(Work& work) {
   work.file = parse_calibration(work.shown.points_file, work.text, work.order.kind, work.arm(), work.read.book);
   work.shown.errors = work.file.errors;
+}
+
+// Everything that follows from the text of the points.
+void compute(Work& work) {
+  parse(work);
   if (!work.usable()) {
     return;
   }
@@ -284,8 +283,7 @@ Calibration take_point(const FileNames& names, const CalibrationOrder& order, co
     read_points(work, true);
   }
   if (work.usable()) {
-    work.file = parse_calibration(work.shown.points_file, work.text, order.kind, work.arm(), work.read.book);
-    work.shown.errors = work.file.errors;
+    parse(work);
     work.shown.problem = wrong_axes(work.arm(), stand);
   }
   if (!work.usable()) {
@@ -295,7 +293,7 @@ Calibration take_point(const FileNames& names, const CalibrationOrder& order, co
   const std::string mark = work.usable() ? mark_for(work, taken.mark) : std::string();
   if (work.usable()) {
     work.text += work.text.empty() || work.text.back() == '\n' ? "" : "\n";
-    work.text += calibration_line(work.arm(), mark, seen, joints_of_stand(work.arm(), stand),
+    work.text += calibration_line(work.arm(), mark, seen, joints_of_values(work.arm(), stand.joints),
                                   is_tool(order.kind) ? std::string() : taken.tool) +
                  '\n';
     compute(work);
@@ -307,18 +305,17 @@ Calibration take_point(const FileNames& names, const CalibrationOrder& order, co
 }
 
 Calibration drop_point(const FileNames& names, const CalibrationOrder& order, std::size_t point) {
-  const Calibration before = show_calibration(names, order);
-  if (!before.errors.empty() || !before.problem.empty()) {
-    return before;
-  }
   Work work = begin(names, order);
-  if (point > before.points.size()) {
-    work.shown.problem = "there is no point " + std::to_string(point) + ", but " + std::to_string(before.points.size());
-  } else {
+  if (work.usable()) {
     read_points(work);
   }
   if (work.usable()) {
-    work.file = parse_calibration(work.shown.points_file, work.text, order.kind, work.arm(), work.read.book);
+    parse(work);
+  }
+  if (const std::size_t count = work.file.points.size(); work.usable() && point > count) {
+    work.shown.problem = "there is no point " + std::to_string(point) + ", but " + std::to_string(count);
+  }
+  if (work.usable()) {
     const int line = point == 0 ? 0 : work.file.points[point - 1].line;
     work.text = point == 0 ? std::string() : without_line(work.text, line);
     compute(work);

@@ -3,22 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 
 #include "control/robot/job/line.h"
 #include "control/robot/job/near_name.h"
+#include "control/robot/job/point_lines.h"
 
 namespace indurop::robot {
 namespace {
 
-std::string exact(double value) {
-  const double rounded = std::round(value * 1e6) / 1e6;
-  std::array<char, 64> text{};
-  const auto [end, error] =
-      std::to_chars(text.data(), text.data() + text.size(), rounded == 0 ? 0.0 : rounded, std::chars_format::fixed);
-  return error == std::errc{} ? std::string(text.data(), end) : "?";
-}
+constexpr int kDecimals = 6;  // of what is calculated again
 
 std::string words_of(const std::vector<MarkWord>& marks) {
   std::string out;
@@ -132,10 +125,7 @@ void PointReader::place(Pose& to) {
   if (!line_.numbers(arm_.count(), numbers.data(), "the positions of the axes in degrees, mm if they slide")) {
     return;
   }
-  Joints joints = Joints::Zero();
-  for (int i = 0; i < arm_.count(); ++i) {
-    joints[i] = arm_.axis(i).slides() ? numbers[at(i)] / 1000 : radians(numbers[at(i)]);
-  }
+  Joints joints = joints_of_values(arm_, numbers);
   touched_by(joints, to);
 }
 
@@ -151,9 +141,8 @@ void PointReader::touched_by(Joints& joints, Pose& to) {
     return;
   }
   const JobToken name = line_.take();
-  const auto tool =
-      std::find_if(book_.tools.begin(), book_.tools.end(), [&](const Tool& one) { return one.name == name.text; });
-  if (tool == book_.tools.end()) {
+  const Tool* const tool = named(book_.tools, name.text);
+  if (tool == nullptr) {
     line_.error(name, "there is no tool " + JobLine::shown(name) + meant(name.text, names_of(book_.tools)));
     return;
   }
@@ -258,11 +247,11 @@ std::string calibration_line(const Arm& arm, std::string_view mark, const std::v
                              const Joints& joints, const std::string& tool) {
   std::string out(mark);
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    out += (i == 3 ? " RPY " : " ") + exact(seen[i]);
+    out += (i == 3 ? " RPY " : " ") + decimal_text(seen[i], kDecimals);
   }
   out += seen.empty() ? " JOINT" : " AT JOINT";
   for (int i = 0; i < arm.count(); ++i) {
-    out += ' ' + exact(arm.axis(i).slides() ? 1000 * joints[i] : degrees(joints[i]));
+    out += ' ' + decimal_text(arm.axis(i).slides() ? 1000 * joints[i] : degrees(joints[i]), kDecimals);
   }
   return out + (tool.empty() ? "" : " TOOL " + tool);
 }

@@ -10,9 +10,7 @@
 #include "core/base/replace_file.h"
 
 namespace indurop::robot {
-namespace {
 
-// The errors that the files would have if one of them had this text.
 std::vector<base::Diagnostic> problems_with(const FileNames& names, const std::string& file, const std::string& text,
                                             const Arm& arm) {
   std::vector<JobFile> all;
@@ -23,23 +21,12 @@ std::vector<base::Diagnostic> problems_with(const FileNames& names, const std::s
   return parse_jobs(all, shape_of(arm)).diagnostics;
 }
 
-}  // namespace
-
 std::string wrong_axes(const Arm& arm, const Stand& stand) {
   if (stand.joints.size() >= static_cast<std::size_t>(arm.count())) {
     return {};
   }
   return "the arm of the files has " + std::to_string(arm.count()) + " axes, the robot " +
          std::to_string(stand.joints.size());
-}
-
-Joints joints_of_stand(const Arm& arm, const Stand& stand) {
-  Joints out = Joints::Zero();
-  for (int i = 0; i < arm.count(); ++i) {
-    const double value = stand.joints[static_cast<std::size_t>(i)];
-    out[i] = arm.axis(i).slides() ? value / 1000 : radians(value);
-  }
-  return out;
 }
 
 std::string file_for(const std::string& named, const JobBook& book, const std::vector<std::string>& files) {

@@ -18,13 +18,15 @@ inline constexpr std::size_t kMostFileBytes = 4U << 20U;
 
 // Returns why the robot is not the arm of the files; empty: it is.
 std::string wrong_axes(const Arm& arm, const Stand& stand);
-// rad, m
-Joints joints_of_stand(const Arm& arm, const Stand& stand);
 
 // The file for a new declaration: the one that is named, or the one with most of the points. Empty: the robot does not
 // read it, see no_file().
 std::string file_for(const std::string& named, const JobBook& book, const std::vector<std::string>& files);
 std::string no_file(const std::string& named);
+
+// Returns the errors that the files would have if one of them had this text.
+std::vector<base::Diagnostic> problems_with(const FileNames& names, const std::string& file, const std::string& text,
+                                            const Arm& arm);
 
 struct FileChange {
   std::vector<base::Diagnostic> errors;  // that the files would have; if there are any, nothing was changed

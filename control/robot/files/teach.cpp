@@ -14,12 +14,6 @@
 namespace indurop::robot {
 namespace {
 
-template <class T>
-const T* named(const std::vector<T>& all, const std::string& name) {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const T& one) { return one.name == name; });
-  return found == all.end() ? nullptr : &*found;
-}
-
 Pose tip_of(const Stand& stand) {
   const auto& [x, y, z] = stand.position;
   const auto& [roll, pitch, yaw] = stand.orientation;
@@ -31,7 +25,7 @@ std::string place_for(const TeachOrder& order, const JobBook& book, const Arm& a
                       const Point* before) {
   const bool was_pose = before != nullptr && before->target.is_pose;
   if (!order.as_pose && order.frame.empty() && (order.as_joint || !was_pose)) {
-    return joint_text(arm, joints_of_stand(arm, stand));
+    return joint_text(arm, joints_of_values(arm, stand.joints));
   }
   const bool in_its_frame = order.frame.empty() && was_pose && before->frame >= 0;
   const WorkFrame* const frame =
@@ -42,7 +36,7 @@ std::string place_for(const TeachOrder& order, const JobBook& book, const Arm& a
   // What the point says of posture and axes it says again; of those that move the workpiece, in any case.
   Target target;
   target.pose = tip_of(stand);
-  target.joints = joints_of_stand(arm, stand);
+  target.joints = joints_of_values(arm, stand.joints);
   target.held = workpiece_axes(arm) | (was_pose ? before->target.held : 0U);
   if (was_pose && before->target.posture) {
     target.posture = Inverse(arm).posture_at(target.joints);

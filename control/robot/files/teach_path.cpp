@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes a job of a path along which the robot was guided.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
+#include "control/robot/files/change_files.h"
 #include "control/robot/files/read_files.h"
 #include "control/robot/files/teach.h"
 #include "control/robot/job/near_name.h"
 #include "control/robot/job/point_lines.h"
 #include "control/robot/kinematics/tool_set.h"
 #include "control/robot/plan/path_fit.h"
-#include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 
 namespace indurop::robot {
@@ -22,24 +21,14 @@ namespace {
 constexpr double kPart = 0.8;       // of the tolerance; the rest is for what drives deviate
 constexpr double kSameWay = 5e-5;   // m; nearer places are one, as of a hand that rests
 constexpr double kSameTurn = 1e-4;  // rad
-constexpr std::size_t kMostBytesOfJobs = 4U << 20U;
-
-// "12.5"
-std::string number_text(double value) {
-  std::array<char, 32> text{};
-  const auto [end, error] =
-      std::to_chars(text.data(), text.data() + text.size(), std::round(value * 1000) / 1000, std::chars_format::fixed);
-  return error == std::errc{} ? std::string(text.data(), end) : "?";
-}
 
 // A thousandth of a degree or mm, as the job has it.
 Joints rounded_joints(const Arm& arm, const std::vector<double>& users) {
-  Joints q = Joints::Zero();
-  for (int i = 0; i < arm.count(); ++i) {
-    const double value = std::round(users[static_cast<std::size_t>(i)] * 1000) / 1000;
-    q[i] = arm.axis(i).slides() ? value / 1000 : radians(value);
+  std::vector<double> rounded(users);
+  for (double& value : rounded) {
+    value = std::round(value * 1000) / 1000;
   }
-  return q;
+  return joints_of_values(arm, rounded);
 }
 
 bool is_same(const FitPlace& a, const FitPlace& b) {
@@ -84,7 +73,7 @@ std::string job_text(const PathOrder& order, const Arm& arm, const std::vector<F
     return name;
   };
   motions += order.tool.empty() ? "" : "TOOL " + order.tool + '\n';
-  motions += "SPEED " + number_text(order.speed) + " mm/s\nMOVJ " + point(0) + '\n';
+  motions += "SPEED " + decimal_text(order.speed) + " mm/s\nMOVJ " + point(0) + '\n';
   for (const FittedMotion& motion : fitted.motions) {
     motions += motion_word(motion.kind);
     for (std::size_t i = 0; i < motion.through.size(); ++i) {
@@ -92,8 +81,8 @@ std::string job_text(const PathOrder& order, const Arm& arm, const std::vector<F
     }
     motions += motion.kind == FitKind::Axes ? " STRAIGHT\n" : "\n";
   }
-  return "# Guided by hand along " + number_text(out.length) + " mm; within " + number_text(out.deviation) +
-         " mm and " + number_text(out.turn_deviation) + " deg of it.\n" + points + motions;
+  return "# Guided by hand along " + decimal_text(out.length) + " mm; within " + decimal_text(out.deviation) +
+         " mm and " + decimal_text(out.turn_deviation) + " deg of it.\n" + points + motions;
 }
 
 // The tool of that name; -1: there is none.
@@ -122,22 +111,9 @@ FileNames without_file(FileNames names, const std::string& file) {
   return names;
 }
 
-ArmShape axes_of(const Arm& arm) {
-  ArmShape shape{arm.count(), {}};
-  for (int i = 0; i < arm.count(); ++i) {
-    shape.slides[static_cast<std::size_t>(i)] = arm.axis(i).slides();
-  }
-  return shape;
-}
-
-void write_job(const FileNames& others, const Arm& arm, TaughtPath& out) {
-  std::vector<JobFile> all;
-  for (const std::string& path : others.jobs) {
-    const auto read = base::read_file(path, kMostBytesOfJobs);
-    all.push_back({path, read ? *read : std::string()});
-  }
-  all.push_back({out.file, out.text});
-  out.errors = parse_jobs(all, axes_of(arm)).diagnostics;
+void write_job(FileNames others, const Arm& arm, TaughtPath& out) {
+  others.jobs.push_back(out.file);
+  out.errors = problems_with(others, out.file, out.text, arm);
   if (!out.errors.empty()) {
     return;
   }

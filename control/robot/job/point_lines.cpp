@@ -9,15 +9,6 @@
 namespace indurop::robot {
 namespace {
 
-// Formats as "12.5", "-0.001", never "-0".
-std::string number(double value) {
-  const double rounded = std::round(value * 1000) / 1000;
-  std::array<char, 64> text{};
-  const auto [end, error] =
-      std::to_chars(text.data(), text.data() + text.size(), rounded == 0 ? 0.0 : rounded, std::chars_format::fixed);
-  return error == std::errc{} ? std::string(text.data(), end) : "?";
-}
-
 // Offset at which a line's comment begins, including the spaces before it; the end of the line if there is none.
 std::size_t comment_of(std::string_view line) {
   std::size_t at = std::min(line.find('#'), line.find("//"));
@@ -39,10 +30,28 @@ std::string_view line_in(std::string_view text, int line) {
 
 }  // namespace
 
+std::string decimal_text(double value, int decimals) {
+  const double parts = std::pow(10, decimals);
+  const double rounded = std::round(value * parts) / parts;
+  std::array<char, 64> text{};
+  const auto [end, error] =
+      std::to_chars(text.data(), text.data() + text.size(), rounded == 0 ? 0.0 : rounded, std::chars_format::fixed);
+  return error == std::errc{} ? std::string(text.data(), end) : "?";
+}
+
+Joints joints_of_values(const Arm& arm, std::span<const double> values) {
+  Joints joints = Joints::Zero();
+  for (int i = 0; i < arm.count(); ++i) {
+    const double value = values[static_cast<std::size_t>(i)];
+    joints[i] = arm.axis(i).slides() ? value / 1000 : radians(value);
+  }
+  return joints;
+}
+
 std::string joint_text(const Arm& arm, const Joints& joints) {
   std::string out = "JOINT";
   for (int i = 0; i < arm.count(); ++i) {
-    out += ' ' + number(arm.axis(i).slides() ? joints[i] * 1000 : degrees(joints[i]));
+    out += ' ' + decimal_text(arm.axis(i).slides() ? joints[i] * 1000 : degrees(joints[i]));
   }
   return out;
 }
@@ -50,8 +59,8 @@ std::string joint_text(const Arm& arm, const Joints& joints) {
 std::string pose_text(const Pose& pose) {
   const Vec3 turn = to_rpy(pose.orientation).unaryExpr([](double a) { return degrees(a); });
   const Vec3 place = pose.position * 1000;
-  return "POSE " + number(place.x()) + ' ' + number(place.y()) + ' ' + number(place.z()) + " RPY " + number(turn.x()) +
-         ' ' + number(turn.y()) + ' ' + number(turn.z());
+  return "POSE " + decimal_text(place.x()) + ' ' + decimal_text(place.y()) + ' ' + decimal_text(place.z()) + " RPY " +
+         decimal_text(turn.x()) + ' ' + decimal_text(turn.y()) + ' ' + decimal_text(turn.z());
 }
 
 std::string pose_text(const Arm& arm, const Target& target, const WorkFrame* frame) {
@@ -60,7 +69,7 @@ std::string pose_text(const Arm& arm, const Target& target, const WorkFrame* fra
   for (int i = 0; i < arm.count(); ++i) {
     if ((target.held >> static_cast<unsigned>(i) & 1U) != 0) {
       const double at = target.joints[i];
-      out += " AXIS " + std::to_string(i + 1) + ' ' + number(arm.axis(i).slides() ? at * 1000 : degrees(at));
+      out += " AXIS " + std::to_string(i + 1) + ' ' + decimal_text(arm.axis(i).slides() ? at * 1000 : degrees(at));
     }
   }
   return out + (frame == nullptr ? "" : " IN " + frame->name);

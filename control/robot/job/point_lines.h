@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,10 @@
 
 namespace indurop::robot {
 
+// Formats a number as "12.5", "-0.001", never "-0", with at most this many decimals.
+std::string decimal_text(double value, int decimals = 3);
+// Converts the values of the arm's axes from deg (mm if they slide); there are at least as many as axes.
+Joints joints_of_values(const Arm& arm, std::span<const double> values);
 // Returns "JOINT 10 -20 30.5 0 90 0": the arm's axes in deg (mm if they slide), to a thousandth.
 std::string joint_text(const Arm& arm, const Joints& joints);
 // Returns "POSE 500 -200 350 RPY 180 0 180", in mm and deg, to a thousandth. `pose` is seen from the frame in which it

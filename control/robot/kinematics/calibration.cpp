@@ -84,6 +84,15 @@ Covariance cofactor_of(const LeastSquares& fit) {
   return out;
 }
 
+// The first place and, if there is one, the first orientation are the result.
+void conclude(Calibrated& out, const LeastSquares& fit, double most_error) {
+  out.result = {fit.found.places[0], fit.found.turns.empty() ? Quat::Identity() : fit.found.turns[0]};
+  if (out.wrong.empty()) {
+    out.cofactor = cofactor_of(fit);
+    out.wrong = too_far(out.most, out.worst, most_error);
+  }
+}
+
 void append(Rows& rows, const Vec3& deviation) {
   rows.insert(rows.end(), deviation.data(), deviation.data() + 3);
 }
@@ -179,11 +188,7 @@ Calibrated calibrate_tool(std::span<const Measured> points) {
     }
     return rows;
   });
-  out.result = {fit.found.places[0], out.turned ? fit.found.turns[0] : Quat::Identity()};
-  if (out.wrong.empty()) {
-    out.cofactor = cofactor_of(fit);
-    out.wrong = too_far(out.most, out.worst, kMostTipError);
-  }
+  conclude(out, fit, kMostTipError);
   return out;
 }
 
@@ -220,11 +225,7 @@ Calibrated calibrate_frame(std::span<const Measured> points) {
     }
     return rows;
   });
-  out.result = {fit.found.places[0], fit.found.turns[0]};
-  if (out.wrong.empty()) {
-    out.cofactor = cofactor_of(fit);
-    out.wrong = too_far(out.most, out.worst, kMostFrameError);
-  }
+  conclude(out, fit, kMostFrameError);
   return out;
 }
 
@@ -309,11 +310,7 @@ Calibrated calibrate_camera(std::span<const Measured> points) {
     append(rows, at.places[0] + at.turns[0] * one.seen.position - one.at.position);
     return rows;
   });
-  out.result = {fit.found.places[0], fit.found.turns[0]};
-  if (out.wrong.empty()) {
-    out.cofactor = cofactor_of(fit);
-    out.wrong = too_far(out.most, out.worst, kMostCameraError);
-  }
+  conclude(out, fit, kMostCameraError);
   return out;
 }
 
@@ -344,11 +341,7 @@ Calibrated calibrate_hand_camera(std::span<const Measured> points) {
     append(rows, kTurnArm * rotation_between(at.turns[1], found.orientation));
     return rows;
   });
-  out.result = {fit.found.places[0], fit.found.turns[0]};
-  if (out.wrong.empty()) {
-    out.cofactor = cofactor_of(fit);
-    out.wrong = too_far(out.most, out.worst, kMostCameraError);
-  }
+  conclude(out, fit, kMostCameraError);
   return out;
 }
 
