@@ -45,7 +45,7 @@ class Group final : public Controller, public InZeroedMemory, private GroupPort 
   [[nodiscard]] bool restore(const void* from, std::size_t bytes) noexcept override;
   [[nodiscard]] const std::vector<std::string>& signals() const noexcept override { return robot_.parts.book.signals; }
   [[nodiscard]] std::size_t axis_count() const noexcept override {
-    return static_cast<std::size_t>(robot_.count() + robot_.singles.count());
+    return static_cast<std::size_t>(robot_.count()) + static_cast<std::size_t>(robot_.singles.count());
   }
   [[nodiscard]] const std::string& kind() const noexcept override { return robot_.parts.kind; }
 

@@ -158,7 +158,9 @@ void Rehearsal::skip(const Segment& segment, double far_place) noexcept {
 // mean speed; near its limit it could leave its range and come back, which would be another posture.
 bool Rehearsal::calm(const Joints& far) const noexcept {
   constexpr double kMoved = 0.05;  // rad or m
-  constexpr double kFast = 0.3, kSudden = 0.25, kChange = 0.25;
+  constexpr double kFast = 0.3;
+  constexpr double kSudden = 0.25;
+  constexpr double kChange = 0.25;
   const double span = skip_ * step_;
   const Joints speed = (far - seen_[0]) / span;
   const Joints before = (seen_[0] - seen_[1]) / step_;

@@ -20,7 +20,7 @@ Cell millimetres(double value) {
 void explain(Context& context, const Calibration& now) {
   const auto& [x, y, z] = now.place_deviation;
   const auto& [roll, pitch, yaw] = now.turn_deviation;
-  if (now.points.size() > 0 && now.worst > 0) {
+  if (!now.points.empty() && now.worst > 0) {
     context.out.note(
         fmt::format("what remains: {:.3f} mm rms, {:.3f} mm at most (point {})", now.rms, now.most, now.worst));
   }

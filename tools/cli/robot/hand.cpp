@@ -8,6 +8,7 @@
 #include <cctype>
 #include <optional>
 
+#include "control/robot/files/teach.h"
 #include "core/rt/clock.h"
 #include "tools/cli/values/forcing.h"
 #include "tools/client/node/node_choice.h"

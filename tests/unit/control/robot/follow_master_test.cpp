@@ -3,7 +3,7 @@
 // it, and that no set point breaks a limit whatever the master does. INDUROP_ROBOT_SYNCS says how many random runs,
 // INDUROP_ROBOT_SEED from which one on.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <random>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A single axis follows the way of the tool (MC_SyncAxisToGroup), and single axes as such.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "synced_cell.h"
 

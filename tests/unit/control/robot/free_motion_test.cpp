@@ -24,7 +24,7 @@ class Free_motion : public testing::Test {
   static constexpr double kCounts = 1'320'000 / (2 * kPi);
 
   // A cell whose arm stands at the start of the scene, with power.
-  void begin(const Scene& scene, const std::string& job, Settings settings = {}) {
+  void begin(const Scene& scene, const std::string& job, const Settings& settings = {}) {
     const std::string urdf = scene.arm().urdf();
     cell = std::make_unique<Cell>(scene.job() + job, 1000 * kPeriod, 0, true, settings, urdf);
     for (int i = 0; i < scene.axes(); ++i) {
@@ -88,9 +88,15 @@ class Free_motion : public testing::Test {
 TEST_F(Free_motion, Is_clear_and_within_limits_in_random_scenes) {
   const int scenes = number_of("INDUROP_ROBOT_SCENES", 20);
   const int seed = number_of("INDUROP_ROBOT_SEED", 1);
-  int found = 0, by_ompl = 0, straight = 0, only_here = 0, only_ompl = 0;
+  int found = 0;
+  int by_ompl = 0;
+  int straight = 0;
+  int only_here = 0;
+  int only_ompl = 0;
   double least = 1;
-  std::vector<double> seconds, ompl_seconds, durations;
+  std::vector<double> seconds;
+  std::vector<double> ompl_seconds;
+  std::vector<double> durations;
   std::map<std::string, int> refused;
   for (int each = seed; each < seed + scenes && !HasFailure(); ++each) {
     const Scene scene(static_cast<unsigned>(each));

@@ -3,6 +3,7 @@
 // its steps is the ratio times the distance that orocos-kdl computes from the set points of the arm, and no set point
 // of any axis breaks a limit. INDUROP_ROBOT_SYNCS says how many random runs, INDUROP_ROBOT_SEED from which one on.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <random>
 

@@ -59,7 +59,8 @@ class Free_command_scenes : public Free_command {
 TEST_F(Free_command_scenes, Has_the_set_points_of_a_job_to_the_last_bit) {
   const int scenes = number_of("INDUROP_ROBOT_SCENES", 12);
   const int first = number_of("INDUROP_ROBOT_SEED", 1);
-  int found = 0, by_pose = 0;
+  int found = 0;
+  int by_pose = 0;
   for (int each = first; each < first + scenes && !HasFailure(); ++each) {
     const Scene scene(static_cast<unsigned>(each));
     SCOPED_TRACE(fmt::format("scene {}:\n{}", each, scene.job()));
@@ -100,7 +101,7 @@ TEST_F(Free_command_scenes, Has_the_set_points_of_a_job_to_the_last_bit) {
 // What may happen to a search or a motion; afterwards, it is commanded again.
 class Free_command_disturbed : public Free_command_scenes {
  protected:
-  enum What { Stop, Halt, Interrupt, Hold, Override, Emergency, Disable, Again, Direct, Line, Behind, kWhats };
+  enum What { Stop, Halt, Interrupt, Hold, Override, Emergency, Disable, Again, Direct, Line, Behind, Count };
 
   void disturb(int what, const Scene& scene, std::mt19937& random) {
     const Eight start = numbers_of(scene.job(), "S");
@@ -176,7 +177,9 @@ class Free_command_disturbed : public Free_command_scenes {
 TEST_F(Free_command_disturbed, Leaves_the_arm_clear_and_within_its_limits) {
   const int scenes = number_of("INDUROP_ROBOT_SCENES", 12);
   const int first = number_of("INDUROP_ROBOT_SEED", 1);
-  int arrived = 0, searching = 0, tried = 0;
+  int arrived = 0;
+  int searching = 0;
+  int tried = 0;
   for (int each = first; each < first + scenes && !HasFailure(); ++each) {
     const Scene scene(static_cast<unsigned>(each));
     std::mt19937 random(static_cast<unsigned>(each));
@@ -184,7 +187,7 @@ TEST_F(Free_command_disturbed, Leaves_the_arm_clear_and_within_its_limits) {
     begin(scene);
     const Eight goal = numbers_of(scene.job(), "G");
     for (int round = 0; round < 4 && !HasFailure(); ++round) {
-      const int what = static_cast<int>(random() % kWhats);
+      const int what = static_cast<int>(random() % Count);
       SCOPED_TRACE(fmt::format("round {}: {}", round, what));
       plans_are_ready() = random() % 3 != 0;
       const Given given = free(goal, round);

@@ -24,7 +24,7 @@ struct Set {                // point of one period
 };
 
 Vec3 place_of(const ToolWay& way, std::size_t i) {
-  return {way.place[i][0], way.place[i][1], way.place[i][2]};
+  return Eigen::Vector3f(way.place[i].data()).cast<double>();
 }
 
 double length_of(const ToolWay& way) {
