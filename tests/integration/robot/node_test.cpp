@@ -211,6 +211,10 @@ TEST_F(RobotNode, Every_block_of_axes_that_follow_others) {
   run_blocks("sync_blocks");
 }
 
+TEST_F(RobotNode, Every_block_that_couples_an_axis_and_the_path) {
+  run_blocks("path_blocks", 3, with_feeder());
+}
+
 TEST_F(RobotNode, Every_block_of_the_group) {
   run_blocks("group_blocks");
 }

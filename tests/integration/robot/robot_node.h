@@ -110,10 +110,26 @@ class RobotNode : public NodeTest {
     return all;
   }
 
+  // The robot of four axes and a feeder that belongs to no group, axis 5.
+  std::vector<Module> with_feeder() {
+    auto all = modules("", {{"PLC_ROBOT", "12345"}});
+    std::ifstream file(FOUR_AXES);
+    std::string urdf{std::istreambuf_iterator<char>(file), {}};
+    urdf.insert(urdf.rfind("</robot>"),
+                "<link name='wire'/><joint name='feeder' type='prismatic'><parent link='base'/><child link='wire'/>"
+                "<axis xyz='0 0 1'/><limit lower='-100' upper='100' velocity='5' effort='1'/></joint>"
+                "<single_axes joints='feeder'/>");
+    write("robot.urdf", urdf);
+    all[1].properties = {{"urdf", "robot.urdf"}, {"jobs", "test.job"}, {"following_limit", "100"}};
+    return all;
+  }
+
   // Each ok_NAME of the program says whether the block did what it should.
   void run_blocks(const std::string& name, int priority = 3,
                   const std::string& job = "TOOL gripper = POSE 0 0 120 RPY 0 0 0\n") {
-    auto all = modules(job);
+    run_blocks(name, priority, modules(job));
+  }
+  void run_blocks(const std::string& name, int priority, std::vector<Module> all) {
     all.push_back(
         {.file = std::string(BLOCKS_DIR) + "/" + name + ".so", .name = "plc", .period = "5ms", .priority = priority});
     const Outcome outcome = run_to_end(all, {"--sim", "--until", "90s"});
