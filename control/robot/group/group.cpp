@@ -64,7 +64,7 @@ void Group::step(const Inputs& in, Signals& signals, Outputs& out) noexcept {
     out.drives[at(i)] = robot_.axes[i].command(in.drives[at(i)], power_.quick_stop());
   }
   torques_.feed(out);
-  robot_.single.step(in, out);
+  robot_.single.step(in, out, overrides_.sync().on());
   report(out);
 }
 

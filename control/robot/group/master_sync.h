@@ -20,6 +20,8 @@ class MasterSync {
   void take(int ticket) noexcept;
   // The command Halt has been taken: this ends when the group has come to rest.
   void end_at_rest() noexcept { ends_ = true; }
+  // Returns whether the path follows a master, also while the tool rests.
+  [[nodiscard]] bool on() const noexcept { return ticket_ != CommandTable::kNone; }
   // Called once per period, before the path is followed. `held`: the path stands still for another reason, so what the
   // master moves meanwhile does not count. Returns the part of full speed, from 0 to 1; 1: the path follows nothing.
   double step(bool held) noexcept;
@@ -32,7 +34,6 @@ class MasterSync {
   };
   [[nodiscard]] ErrorCode check(const Command& command) const noexcept;
   [[nodiscard]] Master master() const noexcept;
-  [[nodiscard]] bool on() const noexcept { return ticket_ != CommandTable::kNone; }
   [[nodiscard]] double part_for(double lag, double speed) const noexcept;
   void end(ErrorCode code) noexcept;
   void fail(ErrorCode code, const char* why) noexcept;

@@ -58,13 +58,14 @@ void SingleAxes::serve(const Inputs& in, ErrorCode permit) noexcept {
 }
 
 // The way of a stop counts, too. Drives that home, or have no power, move the arm on their own.
-void SingleAxes::measure_travel() noexcept {
+void SingleAxes::measure_travel(bool path_follows) noexcept {
   const bool leads = robot_.states.powered() && !robot_.states.is(GroupState::Homing) && !robot_.axes.any_displaced();
-  robot_.travel.step(robot_.tool.arm(), robot_.axes.passed(), leads, robot_.period);
+  const bool followed = path_follows || robot_.singles.count() > 0;
+  robot_.travel.step(robot_.tool.arm(), robot_.axes.passed(), leads, followed, robot_.period);
 }
 
-void SingleAxes::step(const Inputs& in, Outputs& out) noexcept {
-  measure_travel();
+void SingleAxes::step(const Inputs& in, Outputs& out, bool path_follows) noexcept {
+  measure_travel(path_follows);
   robot_.singles.move();
   for (int i = 0; i < robot_.singles.count(); ++i) {
     pass(i);

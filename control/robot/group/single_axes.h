@@ -23,8 +23,8 @@ class SingleAxes {
   // Takes requests. `permit`: Ok, or why no motion is permitted.
   void serve(const Inputs& in, ErrorCode permit) noexcept;
   // Continues their motions by one period, once the set points of the arm are known. Every set point passes through the
-  // gate of its axis, which brakes on its own if it rejects one.
-  void step(const Inputs& in, Outputs& out) noexcept;
+  // gate of its axis, which brakes on its own if it rejects one. `path_follows`: a path follows a master.
+  void step(const Inputs& in, Outputs& out, bool path_follows) noexcept;
   void report(Outputs& out) const noexcept;
   // Comes to rest, since the operating mode demands it.
   void halt() noexcept;
@@ -32,7 +32,7 @@ class SingleAxes {
  private:
   [[nodiscard]] std::size_t drive(int i) const noexcept;
   [[nodiscard]] ErrorCode stop_of_all(bool emergency) const noexcept;
-  void measure_travel() noexcept;
+  void measure_travel(bool path_follows) noexcept;
   void fail_all(ErrorCode code) noexcept;
   void pass(int i) noexcept;
 

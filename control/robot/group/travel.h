@@ -12,18 +12,16 @@ namespace indurop::robot {
 class Travel {
  public:
   // Called once per period when the set points of the arm's drives are known. `leads`: they are those of motions.
-  // `arm`: with the tool that is in use now. Real-time safe.
-  void step(const Arm& arm, const Joints& set_points, bool leads, double seconds) noexcept;
+  // `arm`: with the tool that is in use now. `followed`: anything may measure by it in this period; if not, the tool
+  // counts as resting, which saves two positions of the arm. Real-time safe.
+  void step(const Arm& arm, const Joints& set_points, bool leads, bool followed, double seconds) noexcept;
   // In m, from the start of the task. Valid as long as this object.
   [[nodiscard]] const ToolTravel& seen() const noexcept { return seen_; }
-  // The distance of the last period in m, 0: the tool does not move.
-  [[nodiscard]] double moved() const noexcept { return moved_; }
 
  private:
   ToolTravel seen_;
   LineState state_;
   Joints last_ = Joints::Zero();
-  double moved_ = 0;
 };
 
 }  // namespace indurop::robot
