@@ -46,7 +46,8 @@ bool JobMotions::begin_correction(const CorrectionWay& way) noexcept {
 }
 
 bool JobMotions::end_correction() noexcept {
-  if (!settled() || plans_.holds_forgotten()) {
+  correction_.press({});
+  if (!rests() || plans_.holds_forgotten()) {
     return false;
   }
   correction_.end();

@@ -30,7 +30,7 @@ class JobMotions final : public MotionPort {
   // An interrupted job keeps what was to be planned.
   [[nodiscard]] bool settled() const noexcept override {
     return (resuming_.aside() || plans_.ahead().empty()) && plans_.free() && robot_.follower.idle() &&
-           correction_.at_rest() && !push_.on();
+           (correction_.presses() || correction_.at_rest()) && !push_.on();
   }
   [[nodiscard]] bool is_moving() const noexcept override { return !robot_.follower.at_rest(); }
   Fault move(const MoveCommand& command) noexcept override;
@@ -40,6 +40,8 @@ class JobMotions final : public MotionPort {
   bool begin_correction(const CorrectionWay& way) noexcept override;
   bool end_correction() noexcept override;
   void correct(const Vec3& shift) noexcept override { correction_.want(shift); }
+  void press(const PressNeed& need) noexcept override { correction_.press(need); }
+  [[nodiscard]] bool rests() const noexcept override { return settled() && correction_.at_rest(); }
   Fault push(const PushWay& way) noexcept override { return push_.begin(way); }
   [[nodiscard]] PushState pushing() const noexcept override { return push_.state(); }
   void end_push() noexcept override { push_.end(); }

@@ -17,12 +17,14 @@ void Overrides::step(const Inputs& in, bool interrupted, const ModeGuard& mode, 
   const double part = factor(in.speed_override / 100);
   const double of_group = part * factor(in.factors.group);
   const bool held = in.hold || interrupted;
+  const bool rests = held || of_group < Follower::kStill;
   const double limit = mode.tip_limit(jogging);
-  const double synced = jogging ? 1 : sync_.step(held || of_group < Follower::kStill);
+  const double synced = jogging ? 1 : sync_.step(rests);
   robot_.follower.set_override(std::min(of_group * conveyor_.pace(), synced));
   robot_.follower.set_tip_limit(std::max(0.1 * limit, limit - conveyor_.speed() - correction_.speed()));
   robot_.follower.set_hold(held || (conveyor_.on() && !conveyor_.is_synchronized()));
-  conveyor_.set_paused(held || of_group < Follower::kStill);
+  correction_.set_pace(rests ? 0 : of_group);
+  conveyor_.set_paused(rests);
   const double slow = mode.axes_pace(jogging);
   for (int i = 0; i < robot_.count(); ++i) {
     AxisControl& a = robot_.axes[i];

@@ -14,7 +14,7 @@ namespace indurop::robot {
 
 class Overrides {
  public:
-  Overrides(Robot& robot, GroupPort& group, ConveyorTracking& conveyor, const PathCorrection& correction) noexcept
+  Overrides(Robot& robot, GroupPort& group, ConveyorTracking& conveyor, PathCorrection& correction) noexcept
       : robot_(robot), conveyor_(conveyor), correction_(correction), sync_(robot, group, conveyor) {}
 
   // Values above full speed count as full speed; values that are not numbers hold all motions. `interrupted`: by a
@@ -29,7 +29,7 @@ class Overrides {
 
   Robot& robot_;
   ConveyorTracking& conveyor_;
-  const PathCorrection& correction_;
+  PathCorrection& correction_;
   MasterSync sync_;
   bool wrong_ = false;
 };

@@ -11,10 +11,15 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kShiftLook = 1e-4;  // m, to determine which joint motion a shift requires
-// Part of the joints' limits for the shift along each direction: together half of the reserve.
-constexpr double kShare = PathCorrection::kReserve / 2 / 3;
+// Part of the joints' limits for the shift along all directions together.
+constexpr double kShare = PathCorrection::kReserve / 2;
 constexpr double kShiftExact = 1e-6;  // m
 constexpr double kInside = 0.99;      // part of the limit of a job that is used
+// s and periods in which a missing force becomes 1/e of it: slow enough for sensors and drives that are some periods
+// late. What the surface does is learned in a multiple of it.
+constexpr double kPressTime = 0.06;
+constexpr double kPressPeriods = 15;
+constexpr double kLasting = 4;
 
 }  // namespace
 
@@ -31,6 +36,8 @@ void PathCorrection::begin(const CorrectionWay& way) noexcept {
 void PathCorrection::end() noexcept {
   on_ = shifts_ = false;
   wanted_ = Vec3::Zero();
+  need_ = {};
+  lasting_ = 0;
   shift_ = {};
 }
 
@@ -54,7 +61,7 @@ bool PathCorrection::shifted() const noexcept {
 }
 
 double PathCorrection::speed() const noexcept {
-  return shifts_ ? std::sqrt(static_cast<double>(kDirections)) * way_.rate : 0;
+  return !shifts_ ? 0 : way_.rate * (presses() ? 1 : std::sqrt(static_cast<double>(kDirections)));
 }
 
 Mat3 PathCorrection::axes_at(const Pose& tip) const noexcept {
@@ -75,13 +82,14 @@ void PathCorrection::measure(std::size_t direction, const Joints& q) noexcept {
 LineLimits PathCorrection::limits_of(std::size_t direction) const noexcept {
   const JointLimits& joints = robot_.parts.joints;
   const ToolLimits& tool = robot_.parts.tool;
+  const double share = kShare / (presses() ? 1 : static_cast<double>(kDirections));
   LineLimits limits{way_.rate, tool.acceleration, tool.jerk};
   for (int i = 0; i < robot_.count(); ++i) {
     const double rate = rates_[direction][i];
     if (rate > 0) {
-      limits.velocity = std::min(limits.velocity, kShare * joints.velocity[i] / rate);
-      limits.acceleration = std::min(limits.acceleration, kShare * joints.acceleration[i] / rate);
-      limits.jerk = std::min(limits.jerk, kShare * joints.jerk[i] / rate);
+      limits.velocity = std::min(limits.velocity, share * joints.velocity[i] / rate);
+      limits.acceleration = std::min(limits.acceleration, share * joints.acceleration[i] / rate);
+      limits.jerk = std::min(limits.jerk, share * joints.jerk[i] / rate);
     }
   }
   return limits;
@@ -106,18 +114,41 @@ Profile PathCorrection::way_of(std::size_t direction, bool moving) const noexcep
   return way;
 }
 
+// As fast as the missing force demands, at most as fast as override and limits permit, and only as far as the limit of
+// the job: where that would be passed, it comes to rest there.
+Profile PathCorrection::way_of_press() noexcept {
+  const auto k = static_cast<std::size_t>(way_.pressed);
+  const LineState& from = shift_[k];
+  const LineLimits limits = limits_of(k);
+  const double time = std::max(kPressTime, kPressPeriods * robot_.period);
+  // A speed that cannot be left within that time would make the force swing.
+  const double agile = std::min(limits.jerk * time * time / 4, limits.acceleration * time / 2);
+  const double most = pace_ * std::min(limits.velocity, agile);
+  lasting_ += need_.missing * robot_.period / (kLasting * time);
+  lasting_ = need_.touches ? std::clamp(lasting_, -most * time, most * time) : 0;
+  const double wanted = (need_.missing + lasting_) / time;
+  const Profile way = Profile::to_velocity(from, std::clamp(wanted, -most, most), limits);
+  const auto [low, high] = Profile::to_velocity(way.at(robot_.period), 0, limits).extent();
+  if (low >= -kInside * way_.limit && high <= kInside * way_.limit) {
+    return way;
+  }
+  wanted_[way_.pressed] = std::copysign(way_.limit, high > kInside * way_.limit ? 1.0 : -1.0);
+  return way_of(k, true);
+}
+
 // Each direction on its own, so that none of them ever exceeds the limit of the job.
 void PathCorrection::move() noexcept {
   const bool moving = !robot_.follower.at_rest();
   for (std::size_t k = 0; k < kDirections; ++k) {
-    const Profile way = way_of(k, moving);
+    const Profile way = presses() && static_cast<int>(k) == way_.pressed ? way_of_press() : way_of(k, moving);
     LineState next = way.at(robot_.period);
-    if (way.duration() <= robot_.period) {
+    if (way.duration() <= robot_.period && way.end().velocity == 0) {
       next = {way.end().position, 0, 0};
     }
     next.position = std::clamp(next.position, -way_.limit, way_.limit);
     shift_[k] = next;
   }
+  need_ = {};
 }
 
 Fault PathCorrection::place(Joints& q) const noexcept {

@@ -4,8 +4,15 @@
 #include <indurop/robot/controller.h>
 
 #include <array>
+#include <cmath>
 
 namespace indurop::robot {
+
+namespace {
+
+constexpr double kTouch = 0.2;  // part of the wanted force from which on the tool is in contact
+
+}  // namespace
 
 void Correcting::skip(const Step& step) noexcept {
   if (step.op == Op::Correct) {
@@ -13,18 +20,31 @@ void Correcting::skip(const Step& step) noexcept {
   }
 }
 
+const JobCorrection& Correcting::now() const noexcept {
+  return book_.corrections[static_cast<std::size_t>(now_)];
+}
+
+// While one is on: the text that fits it.
+const char* Correcting::either(const char* correct, const char* press) const noexcept {
+  return now().pressed < 0 ? correct : press;
+}
+
 StepValues::Flaw Correcting::run(const Step& step, const JobPlaces& places, MotionPort& port, bool& done) noexcept {
   if (step.slot < 0) {
+    if (on() && (now().pressed >= 0) != (step.mid == 1)) {
+      return {either("CORRECT is on; it ends with CORRECT OFF", "PRESS is on; it ends with PRESS OFF")};
+    }
     done = end(port);
     skipped_ = false;
     return {};
   }
   if (on()) {
-    return {"CORRECT is on already; end it with CORRECT OFF before"};
+    return {either("CORRECT is on already; end it with CORRECT OFF before",
+                   "PRESS is on already; end it with PRESS OFF before")};
   }
   const JobCorrection& correction = book_.corrections[static_cast<std::size_t>(step.slot)];
   const Quat axes = step.index >= 0 ? places.frame(step.index).orientation : Quat::Identity();
-  done = port.begin_correction({axes, correction.by_tool, correction.limit, correction.rate});
+  done = port.begin_correction({axes, correction.by_tool, correction.limit, correction.rate, correction.pressed});
   if (done) {
     now_ = step.slot;
     skipped_ = false;
@@ -43,34 +63,42 @@ bool Correcting::end(MotionPort& port) noexcept {
 
 StepValues::Flaw Correcting::check(const Step& motion) const noexcept {
   if (skipped_) {
-    return {"a job cannot begin between CORRECT and CORRECT OFF; begin at the line of the CORRECT"};
+    return {"a job cannot begin between CORRECT or PRESS and its OFF; begin at the line of the CORRECT or PRESS"};
   }
   if (!on()) {
     return {};
   }
   if (is_of_joints(motion.move)) {
-    return {"CORRECT shifts lines, circles and splines; end it with CORRECT OFF before another motion"};
+    return {either("CORRECT shifts lines, circles and splines; end it with CORRECT OFF before another motion",
+                   "PRESS shifts lines, circles and splines; end it with PRESS OFF before another motion")};
   }
   if (motion.index < 0) {
-    return {"HERE, FOUND and BACK include the correction; end it with CORRECT OFF before you move there"};
+    return {either("HERE, FOUND and BACK include the correction; end it with CORRECT OFF before you move there",
+                   "HERE, FOUND and BACK include how far the tool has pressed; end it with PRESS OFF before")};
   }
   return {};
 }
 
-// While the robot is at standstill nothing is shifted, and a measurement need not come.
+// While the robot is at standstill nothing is corrected, and a measurement need not come; but a tool presses there,
+// too.
 StepValues::Flaw Correcting::step(double seconds, const StepValues& values, Signals& signals,
                                   MotionPort& port) noexcept {
   if (!on()) {
     return {};
   }
-  const JobCorrection& correction = book_.corrections[static_cast<std::size_t>(now_)];
+  const JobCorrection& correction = now();
   if (correction.beat >= 0) {
     const double beat = signals.read(static_cast<std::size_t>(correction.beat));
-    age_ = beat != beat_ || !port.is_moving() ? 0 : age_ + seconds;
+    const bool needed = correction.pressed >= 0 || port.is_moving();
+    age_ = beat != beat_ || !needed ? 0 : age_ + seconds;
     beat_ = beat;
     if (age_ > correction.age) {
-      return {"the correction has had no new measurement for the time that its AGE allows; check the sensor"};
+      return {either("the correction has had no new measurement for the time that its AGE allows; check the sensor",
+                     "PRESS has had no new measurement for the time that its AGE allows; check the sensor")};
     }
+  }
+  if (correction.pressed >= 0) {
+    return press(values, signals, port);
   }
   std::array<double, 3> shift{};
   const StepValues::Flaw flaw = values.numbers(correction.formula, shift.size(), signals, port, shift.data());
@@ -78,6 +106,21 @@ StepValues::Flaw Correcting::step(double seconds, const StepValues& values, Sign
     port.correct(Vec3(shift[0], shift[1], shift[2]) / 1000);
   }
   return flaw;
+}
+
+StepValues::Flaw Correcting::press(const StepValues& values, Signals& signals, MotionPort& port) const noexcept {
+  const JobCorrection& correction = now();
+  std::array<double, 2> force{};  // wanted and measured, N
+  const StepValues::Flaw flaw = values.numbers(correction.formula, force.size(), signals, port, force.data());
+  if (!flaw.ok()) {
+    return flaw;
+  }
+  if (!(std::abs(force[1]) <= correction.most)) {
+    return {"the measured force is more than the MOST of PRESS: what is in the way, or is STIFFNESS too low?"};
+  }
+  const bool touches = std::copysign(force[1], force[0] * force[1]) >= kTouch * std::abs(force[0]);
+  port.press({(force[0] - force[1]) / correction.stiffness, touches});
+  return {};
 }
 
 }  // namespace indurop::robot

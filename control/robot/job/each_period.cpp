@@ -3,9 +3,10 @@
 
 #include <indurop/robot/commands.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
-#include <string_view>
 
 namespace indurop::robot {
 
@@ -20,15 +21,63 @@ void EachPeriodReader::correct() {
   correction.formula = draft_.keep(checked(expressions_.list(3, "x, y and z of the correction in mm, or OFF",
                                                              "0, SEAM::y, SEAM::z LIMIT 20 mm RATE 50 mm/s"),
                                            start));
+  axes(correction);
+  if (limits(correction, "; a correction has LIMIT 20 mm and RATE 50 mm/s")) {
+    age(correction);
+  }
+  keep(correction);
+}
+
+// Parses "PRESS 20, -WRIST::fz ALONG Z TOOL MOST 60 N STIFFNESS 40 N/mm LIMIT 5 mm RATE 10 mm/s AGE WRIST::count 50
+// ms", "PRESS OFF"
+void EachPeriodReader::press() {
+  static constexpr const char* kExample =
+      "; PRESS 20, -WRIST::fz ALONG Z TOOL MOST 60 N STIFFNESS 40 N/mm LIMIT 5 mm RATE 10 mm/s";
+  draft_.add(Op::Correct).mid = 1;
+  if (line_.accept("OFF")) {
+    return;
+  }
+  JobCorrection press;
+  const JobToken start = line_.peek();
+  press.formula = draft_.keep(checked(
+      expressions_.list(2, "the force in N and the measured one, or OFF", "20, -WRIST::fz ALONG Z TOOL"), start));
+  if (axis(press)) {
+    axes(press);
+  }
+  if (amount(press.most, {"MOST", {"N"}, 1e5, 1, kExample}) &&
+      amount(press.stiffness, {"STIFFNESS", {"N", "/", "mm"}, 1e5, 1000, kExample}) && limits(press, kExample)) {
+    age(press);
+  }
+  keep(press);
+}
+
+bool EachPeriodReader::axis(JobCorrection& correction) {
+  static constexpr std::array<const char*, 3> kNames{"X", "Y", "Z"};
+  const bool along = !line_.failed() && line_.accept("ALONG");
+  for (std::size_t i = 0; along && i < kNames.size() && correction.pressed < 0; ++i) {
+    correction.pressed = line_.accept(kNames[i]) ? static_cast<int>(i) : -1;
+  }
+  if (!line_.failed() && correction.pressed < 0) {
+    line_.error(line_.peek(), "expected ALONG and X, Y or Z, found " + JobLine::shown(line_.peek()) +
+                                  "; the tool presses along this axis");
+  }
+  return !line_.failed();
+}
+
+void EachPeriodReader::axes(JobCorrection& correction) {
   if (!line_.failed() && line_.accept("IN")) {
     names_.refer(JobNames::To::Frame, "frame");
   } else if (!line_.failed()) {
     correction.by_tool = line_.accept("TOOL");
   }
-  if (amount(correction.limit, "LIMIT", "mm", "a correction is limited to more than 0 and at most 1000 mm") &&
-      amount(correction.rate, "RATE", "mm/s", "a correction changes by more than 0 and at most 1000 mm/s")) {
-    age(correction);
-  }
+}
+
+bool EachPeriodReader::limits(JobCorrection& correction, const char* example) {
+  return amount(correction.limit, {"LIMIT", {"mm"}, 1000, 1e-3, example}) &&
+         amount(correction.rate, {"RATE", {"mm", "/", "s"}, 1000, 1e-3, example});
+}
+
+void EachPeriodReader::keep(const JobCorrection& correction) {
   draft_.last().slot = static_cast<int>(draft_.book().corrections.size());
   draft_.book().corrections.push_back(correction);
 }
@@ -88,27 +137,31 @@ std::vector<Formula> EachPeriodReader::checked(std::vector<Formula> formulas, co
   return formulas;
 }
 
-bool EachPeriodReader::amount(double& to, const char* word, const char* unit, const char* wrong) {
+bool EachPeriodReader::amount(double& to, const Amount& wanted) {
   if (line_.failed()) {
     return false;
   }
-  if (!line_.accept(word)) {
-    line_.error(line_.peek(), std::string("expected ") + word + " and a number of " + unit + ", found " +
-                                  JobLine::shown(line_.peek()) + "; a correction has LIMIT 20 mm and RATE 50 mm/s");
+  std::string unit;
+  for (const char* token : wanted.unit) {
+    unit += token;
+  }
+  if (!line_.accept(wanted.word)) {
+    line_.error(line_.peek(), std::string("expected ") + wanted.word + " and a number of " + unit + ", found " +
+                                  JobLine::shown(line_.peek()) + wanted.example);
     return false;
   }
   const JobToken number = line_.peek();
-  if (!line_.numbers(1, &to, unit)) {
+  if (!line_.numbers(1, &to, unit.c_str())) {
     return false;
   }
-  if (!(to > 0 && to <= 1000)) {
-    line_.error(number, wrong);
+  if (!(to > 0 && to <= wanted.most)) {
+    line_.error(number, std::string(wanted.word) + " is more than 0 and at most " +
+                            std::to_string(static_cast<int>(wanted.most)) + " " + unit);
     return false;
   }
-  to /= 1000;
-  const bool per_second = std::string_view(unit) != "mm";
-  if (!line_.accept("mm") || (per_second && !(line_.accept("/") && line_.accept("s")))) {
-    line_.error(line_.peek(), std::string("expected ") + unit + ", found " + JobLine::shown(line_.peek()));
+  to *= wanted.to_si;
+  if (!std::all_of(wanted.unit.begin(), wanted.unit.end(), [&](const char* token) { return line_.accept(token); })) {
+    line_.error(line_.peek(), "expected " + unit + ", found " + JobLine::shown(line_.peek()));
   }
   return !line_.failed();
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Statements whose expressions are evaluated in each period from there on: corrections of the path, outputs that
-// follow the motion, and frames that move.
+// Statements whose expressions are evaluated in each period from there on: corrections of the path, a tool that
+// presses, outputs that follow the motion, and frames that move.
 
 #pragma once
 
+#include <initializer_list>
 #include <vector>
 
 #include "control/robot/job/statement.h"
@@ -16,11 +17,24 @@ class EachPeriodReader {
       : line_(parts.line), draft_(parts.draft), names_(parts.names), expressions_(parts.expressions) {}
 
   void correct();
+  void press();
   void follow();
   void track();
 
  private:
-  bool amount(double& to, const char* word, const char* unit, const char* wrong);
+  // A word and a number above 0 with its unit, which is converted to m, N and s.
+  struct Amount {
+    const char* word = nullptr;
+    std::initializer_list<const char*> unit{};  // its tokens
+    double most = 0;
+    double to_si = 1;
+    const char* example = nullptr;
+  };
+  bool amount(double& to, const Amount& wanted);
+  bool limits(JobCorrection& correction, const char* example);
+  bool axis(JobCorrection& correction);
+  void axes(JobCorrection& correction);
+  void keep(const JobCorrection& correction);
   void age(JobCorrection& correction);
   std::vector<Formula> checked(std::vector<Formula> formulas, const JobToken& at);
 

@@ -32,7 +32,7 @@ enum class Op : std::uint8_t {
   Tool,          // index: tool
   Load,          // index: load of the book
   Weave,         // slot: wave of the book, -1: none
-  Correct,       // slot: correction of the book, -1: ends it; index: frame of its axes, -1: the base
+  Correct,       // slot: correction of the book, -1: ends it; index: frame of its axes, -1: the base; mid: 1 for PRESS
   Set,           // index: signal; formula; pulse
   SetOnPath,     // as Set, during the motion before it: value: m before its end, after its start if mid is 1;
                  // timeout above 0: s instead of m
@@ -101,14 +101,17 @@ struct JobQuestion {
   int variable = -1;                   // of the job, receives the answer; -1: none
 };
 
-// A CORRECT statement: how motions are shifted from here on.
+// A CORRECT or PRESS statement: how motions are shifted from here on.
 struct JobCorrection {
-  int formula = -1;      // first one of x, y and z in mm, evaluated in each period
+  int formula = -1;      // evaluated in each period: first one of x, y and z in mm; PRESS: wanted and measured force, N
   bool by_tool = false;  // along the axes of the tool, instead of those of a frame
   double limit = 0;      // m, of each of them
   double rate = 0;       // m/s, of each of them
   int beat = -1;         // signal that changes with each measurement; -1: none
   double age = 0;        // s after which it has to have changed
+  int pressed = -1;      // PRESS: along which axis, 0: x; -1: it is a CORRECT
+  double most = 0;       // N that are measured at most
+  double stiffness = 0;  // N/m
 };
 
 // A PUSH statement: an axis pushes until a condition holds, or all of its torque has been there for a time.

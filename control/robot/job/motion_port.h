@@ -9,12 +9,20 @@
 
 namespace indurop::robot {
 
-// How motions are shifted: along which axes, and the limits of the shift along each of them.
+// How motions are shifted: along which axes, and the limits of the shift along each of them. A tool that presses is
+// shifted along one of them only, also while the path is at rest.
 struct CorrectionWay {
   Quat axes = Quat::Identity();  // in the base
   bool by_tool = false;          // along the axes of the tool instead
   double limit = 0;              // m
   double rate = 0;               // m/s
+  int pressed = -1;              // axis along which the tool presses, 0: x; -1: it does not
+};
+
+// How far a tool is from where it would press as it should.
+struct PressNeed {
+  double missing = 0;    // m, by the stiffness of the contact
+  bool touches = false;  // it presses already
 };
 
 // A frame that moves with a belt, along x of `origin`, or with a table, about z of it.
@@ -47,6 +55,10 @@ class MotionPort {
   virtual bool end_correction() noexcept { return true; }
   // How far to shift from now on, m along the axes; what exceeds the limit is cut off.
   virtual void correct(const Vec3&) noexcept {}
+  // What is missing in this period to a tool that presses. If it is not called, the tool comes to rest.
+  virtual void press(const PressNeed&) noexcept {}
+  // Returns whether no set point changes: all motions have ended, and a tool that presses rests.
+  [[nodiscard]] virtual bool rests() const noexcept { return settled(); }
   // Lets an axis push from now on; all motions must have ended. settled() is false until end_push() has brought it to
   // rest. Errors: Value, NoTorque, Torque, State.
   virtual Fault push(const PushWay&) noexcept { return {}; }

@@ -13,7 +13,8 @@ constexpr const char* kStatements =
     "POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, VAR, SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, MOVE FREE TO, "
     "SEARCH, "
     "WEAVE, "
-    "CORRECT, TRACK, PUSH, FOLLOW, SET, PULSE, WAIT, ASK, CALL, ON, OFF, RETURN, RAISE, MESSAGE, LABEL, GOTO, IF, "
+    "CORRECT, PRESS, TRACK, PUSH, FOLLOW, SET, PULSE, WAIT, ASK, CALL, ON, OFF, RETURN, RAISE, MESSAGE, LABEL, GOTO, "
+    "IF, "
     "ELSEIF, "
     "ELSE, "
     "WHILE, "
@@ -86,6 +87,7 @@ void JobParser::statement() {
       {"SEARCH", [](JobParser& p) { p.motions_.search(); }},
       {"WEAVE", [](JobParser& p) { p.weaving_.weave(); }},
       {"CORRECT", [](JobParser& p) { p.each_period_.correct(); }},
+      {"PRESS", [](JobParser& p) { p.each_period_.press(); }},
       {"FOLLOW", [](JobParser& p) { p.each_period_.follow(); }},
       {"TRACK", [](JobParser& p) { p.each_period_.track(); }},
       {"PUSH", [](JobParser& p) { p.pushing_.push(); }},

@@ -10,6 +10,15 @@ namespace {
 
 constexpr int kStepsPerPeriod = 64;  // an endless loop without waiting continues in the next period
 
+// A tool that presses no longer does in this period.
+bool come_to_rest(MotionPort& port) noexcept {
+  if (!port.rests()) {
+    port.press({});
+    return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 bool JobRunner::compute(int formula, Signals& signals, const MotionPort& port, double& value) noexcept {
@@ -74,7 +83,7 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
     if (step == nullptr) {
       next = leave(signals, port);
     } else if (search_.ticket == 0 && !long_.riding.rides() && !long_.pushing.on() && pauses_.before(jobs_)) {
-      if (port.settled()) {
+      if (come_to_rest(port)) {
         state_ = JobState::Paused;
         line_ = step->line;
         line_job_ = jobs_.job();
@@ -119,7 +128,7 @@ JobRunner::Next JobRunner::leave(Signals& signals, MotionPort& port) noexcept {
     jobs_.finish();
     return Next::Go;
   }
-  if (port.settled() && long_.riding.end(port)) {
+  if (port.settled() && long_.riding.end(port) && come_to_rest(port)) {
     long_.correcting.reset();
     outputs_.followed.reset(signals);
     state_ = JobState::Ended;
@@ -224,7 +233,7 @@ JobRunner::Next JobRunner::select(const Step& step, double seconds, Signals& sig
   } else if (step.op == Op::Correct) {
     flaw = long_.correcting.run(step, places_, port, is_done);
   } else if (long_.correcting.on()) {
-    flaw = {"tool and load must not change, nor an axis push, while motions are corrected; CORRECT OFF comes before"};
+    flaw = {"tool and load must not change, nor an axis push, while CORRECT or PRESS is on; its OFF comes before"};
   } else if (step.op == Op::Push) {
     flaw = long_.pushing.run(step, seconds, MotionLine{jobs_.job(), step.line}.source(), signals, port, is_done);
   } else {

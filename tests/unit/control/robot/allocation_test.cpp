@@ -66,6 +66,17 @@ TEST(RobotAllocation, Neither_does_a_path_that_is_corrected) {
   EXPECT_EQ(out.job.state, JobState::Ended) << message;
 }
 
+TEST(RobotAllocation, Neither_does_one_with_a_tool_that_presses) {
+  Outputs out;
+  std::string message;
+  const std::string job =
+      "POINT A = POSE 500 100 400 RPY 180 0 180\nPOINT B = POSE 500 -100 400 RPY 180 0 180\nMOVJ A\n"
+      "PRESS 5, 20 * SIN(200 * TIME) ALONG Z TOOL MOST 60 N STIFFNESS 4 N/mm LIMIT 20 mm RATE 50 mm/s\nWAIT 0.5s\n"
+      "LOOP 3\nMOVL B\nMOVL A\nEND\nPRESS OFF\n";
+  EXPECT_EQ(allocations_of(cell_urdf(), job, out, message), 0U);
+  EXPECT_EQ(out.job.state, JobState::Ended) << message;
+}
+
 TEST(RobotAllocation, Neither_does_one_with_a_wave) {
   Outputs out;
   std::string message;

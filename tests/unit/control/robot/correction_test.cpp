@@ -229,7 +229,7 @@ TEST_F(Correction, A_job_cannot_begin_inside_of_it) {
   cell->in.service.line = 7;
   begin();
   ASSERT_TRUE(follow([&] { return ended(); }));
-  EXPECT_THAT(message(), HasSubstr("cannot begin between CORRECT and CORRECT OFF"));
+  EXPECT_THAT(message(), HasSubstr("cannot begin between CORRECT or PRESS and its OFF"));
 }
 
 TEST_F(Correction, An_interrupt_waits_for_its_end) {

@@ -210,7 +210,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"FLY A\n",
             "a.job:1:1: error: unknown statement 'FLY'; known are POINT, FRAME, TOOL, LOAD, BODY, KEEPOUT, PARAM, "
             "VAR, "
-            "SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, MOVE FREE TO, SEARCH, WEAVE, CORRECT, TRACK, PUSH, FOLLOW, SET, "
+            "SPEED, ACC, ZONE, MOVJ, MOVL, MOVC, MOVS, MOVE FREE TO, SEARCH, WEAVE, CORRECT, PRESS, TRACK, PUSH, "
+            "FOLLOW, SET, "
             "PULSE, WAIT, "
             "ASK, "
             "CALL, "

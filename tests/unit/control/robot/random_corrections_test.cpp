@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sensors that say anything, on random lines of two arms, with holds, overrides, stops, and controllers that continue
 // for each other: no set point breaks a limit, and the tip is never farther from its line than the job allows.
-// INDUROP_ROBOT_CORRECTIONS says how many runs, INDUROP_ROBOT_SEED from which one on.
+// INDUROP_ROBOT_CORRECTIONS and INDUROP_ROBOT_PRESSES say how many runs, INDUROP_ROBOT_SEED from which one on.
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -19,9 +19,10 @@ class Random_corrections : public CorrectedCell {
   // Something that happens about every `ms`.
   bool every(double ms) { return one_of(static_cast<int>(ms / (1000 * period))) == 0; }
 
-  // A line there and back, along x of a frame; the sensor shifts along y and z of it.
+  // A line there and back, along x of a frame; the sensor shifts along y and z of it, or the tool presses along y.
   struct Line {
     bool gantry = false;
+    bool presses = false;
     double limit = 0, rate = 0, angle = 0, half = 0;
     Vec3 middle = Vec3::Zero();
   };
@@ -41,8 +42,11 @@ class Random_corrections : public CorrectedCell {
                        line.angle) +
            fmt::format("POINT A = POSE {} 0 0 {} IN f\nPOINT B = POSE {} 0 0 {} IN f\nMOVJ A\n", -line.half, rpy,
                        line.half, rpy) +
-           fmt::format("SPEED {} mm/s\nCORRECT 0, DY, DZ IN f LIMIT {} mm RATE {} mm/s\n", in(20, 800), line.limit,
+           fmt::format("SPEED {} mm/s\n{} IN f {} LIMIT {} mm RATE {} mm/s\n", in(20, 800),
+                       line.presses ? "PRESS DY, DZ ALONG Y" : "CORRECT 0, DY, DZ",
+                       line.presses ? fmt::format("MOST 1000 N STIFFNESS {} N/mm", in(0.5, 50)) : "", line.limit,
                        line.rate) +
+           (line.presses ? fmt::format("WAIT {}s\n", in(0, 1)) : "") +
            fmt::format("ZONE {} mm\nMOVL B\nMOVL A\nMOVL B\nMOVL A\nSET OUT = 1\n", one_of(2) * one_of(20));
   }
   void say_anything(double limit) {
@@ -87,25 +91,32 @@ class Random_corrections : public CorrectedCell {
           }
           return *values["OUT"] == 1 || cell->out.state == GroupState::ErrorStop;
         },
-        200'000))
+        500'000))
         << message();
     EXPECT_EQ(*values["OUT"], 1) << message();
+  }
+  void run_all(int runs, bool presses) {
+    const int seed = number_of("INDUROP_ROBOT_SEED", 1);
+    for (int each = seed; each < seed + runs && !HasFailure(); ++each) {
+      SCOPED_TRACE(each);
+      random.seed(static_cast<unsigned>(each));
+      Line line = choose();
+      line.presses = presses;
+      constexpr std::array<double, 3> kPeriods{1, 4, 10};
+      start(job_of(line), kPeriods[static_cast<std::size_t>(one_of(3))], line.gantry ? urdf_of("gantry") : cell_urdf());
+      say_anything(line.limit);
+      run(line, one_of(2) == 0);
+    }
   }
   std::mt19937 random;
 };
 
 TEST_F(Random_corrections, Never_lead_beyond_a_limit) {
-  const int runs = number_of("INDUROP_ROBOT_CORRECTIONS", 25);
-  const int seed = number_of("INDUROP_ROBOT_SEED", 1);
-  for (int each = seed; each < seed + runs && !HasFailure(); ++each) {
-    SCOPED_TRACE(each);
-    random.seed(static_cast<unsigned>(each));
-    const Line line = choose();
-    constexpr std::array<double, 3> kPeriods{1, 4, 10};
-    start(job_of(line), kPeriods[static_cast<std::size_t>(one_of(3))], line.gantry ? urdf_of("gantry") : cell_urdf());
-    say_anything(line.limit);
-    run(line, one_of(2) == 0);
-  }
+  run_all(number_of("INDUROP_ROBOT_CORRECTIONS", 25), false);
+}
+
+TEST_F(Random_corrections, Of_tools_that_press_never_lead_beyond_a_limit) {
+  run_all(number_of("INDUROP_ROBOT_PRESSES", 25), true);
 }
 
 }  // namespace
