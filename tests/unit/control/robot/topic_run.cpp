@@ -16,6 +16,7 @@ const std::vector<Topic>& topics() {
                                           {"spline", {}, -150, 1e-3},
                                           {"search", {}, 317, 0.3},
                                           {"seam", {}, 12, 0.01},
+                                          {"polish", {}, 15, 1.5},
                                           {"timeouts", {}, 2, 0},
                                           {"subprograms", {"height"}, 180, 0},
                                           {"dialogue", {}, -200e3 + 22.5 + 12 * 10 + 1, 0.1},
@@ -111,6 +112,10 @@ void TopicRun::react() {
     set("I4", cell_.out.position[2] < 317 ? 1 : 0);
   } else if (topic_ == "seam") {
     set("DY", std::min(12.0, 0.02 * period_));
+    set("COUNT", period_);
+  } else if (topic_ == "polish") {
+    const double along = std::hypot(cell_.out.position[0] - 450, cell_.out.position[1] + 150);
+    set("FORCE", std::max(0.0, 10 * (250 + 2 * std::sin(along / 30) - cell_.out.position[2])));
     set("COUNT", period_);
   } else if (topic_ == "timeouts") {
     set("I5", period_ > 45 ? 1 : 0);
