@@ -138,19 +138,13 @@ class Layout {
   void library(const LibraryBlock& block, const Name& name) {
     for (const auto* pins : {&block.inputs, &block.outputs}) {
       for (const LibraryParameter& pin : *pins) {
-        if (const Type* type = type_of(pin)) {
+        if (const Type* type = watched_type_of(pin)) {
           const Name of_pin = name + "." + pin.name;
           out_.variables.push_back({upper(of_pin), type, out_.bytes, of_pin});
           out_.bytes += packed_size(*type);
         }
       }
     }
-  }
-
-  static const Type* type_of(const LibraryParameter& pin) {
-    static const TypeTable kTypes;
-    const auto* known = std::get_if<Elementary>(&pin.type);
-    return known == nullptr || is_text(*known) ? nullptr : kTypes.elementary(*known);
   }
 
   WatchLayout out_;
@@ -170,6 +164,12 @@ bool is_watched(const Variable& variable) {
          variable.section != Section::InOut && variable.global == nullptr && !variable.is_constant &&
          !variable.declared->is_static && !variable.declared->of_instance && is_watchable(*variable.type) &&
          packed_size(*variable.type) <= kMaxVariableBytes;
+}
+
+const Type* watched_type_of(const LibraryParameter& pin) {
+  static const TypeTable kTypes;
+  const auto* known = std::get_if<Elementary>(&pin.type);
+  return known == nullptr || is_text(*known) ? nullptr : kTypes.elementary(*known);
 }
 
 std::size_t packed_size(const Type& type) {

@@ -40,6 +40,8 @@ struct WatchLayout {
 
 // Returns whether a variable of a POU is reported: not temporary ones, constants, or references to other variables.
 [[nodiscard]] bool is_watched(const Variable& variable);
+// Returns the type of a pin of a library function block that is reported; null if it is not.
+[[nodiscard]] const Type* watched_type_of(const LibraryParameter& pin);
 // Returns the size of a value in bytes, without gaps.
 [[nodiscard]] std::size_t packed_size(const Type& type);
 [[nodiscard]] WatchLayout watch_layout(const TaskProgram& program);

@@ -53,6 +53,11 @@ std::string module_name(const CompileOptions& options) {
   return options.name.empty() && !options.files.empty() ? name_from(options.files[0]) : options.name;
 }
 
+std::string module_of(const Program& program, const TaskPlan& task, const std::string& name) {
+  const bool only = program.tasks.size() == 1;
+  return only ? name : name + "_" + (task.name.empty() ? "default" : task.name);
+}
+
 std::unique_ptr<Program> check_files(const CompileOptions& options, const std::string& name,
                                      const glb2idl::FileReader& read, Diagnostics& diagnostics,
                                      std::vector<base::Diagnostic>& of_glb) {

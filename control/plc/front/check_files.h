@@ -18,6 +18,9 @@ namespace indurop::plc {
 // Returns the given name, else that of the first file; characters that C++ does not allow in a name become '_'.
 [[nodiscard]] std::string module_name(const CompileOptions& options);
 
+// Returns the name of the module that runs a task of a program.
+[[nodiscard]] std::string module_of(const Program& program, const TaskPlan& task, const std::string& name);
+
 // Returns null after errors, or a program that must not be used. `of_glb`: receives the errors of .glb files.
 [[nodiscard]] std::unique_ptr<Program> check_files(const CompileOptions& options, const std::string& name,
                                                    const glb2idl::FileReader& read, Diagnostics& diagnostics,

@@ -70,9 +70,8 @@ class Compiler {
     check_glb(out_.name, glb, options_.glb_files, read_, diagnostics_);
     out_.glb = glb.text;
     for (const TaskPlan& task : program->tasks) {
-      const bool only = program->tasks.size() == 1;
       ModuleText module;
-      module.name = only ? out_.name : out_.name + "_" + (task.name.empty() ? "default" : task.name);
+      module.name = module_of(*program, task, out_.name);
       CoverageTable coverage;
       const Probes probes{options_.debug ? &module.debug : nullptr, options_.coverage ? &coverage : nullptr};
       module.cpp = emit_module(*program, task, {module.name, sources, options_.show_locals, options_.watch, probes});

@@ -17,6 +17,7 @@ WatchPlan watch_plan(CompileOptions options, const glb2idl::FileReader& read) {
     plan.ok = true;
     plan.space = plan.program->space;
     for (const TaskPlan& task : plan.program->tasks) {
+      plan.modules.push_back(module_of(*plan.program, task, module_name(options)));
       for (const TaskProgram& one : task.programs) {
         plan.instances.push_back(&one);
         plan.layouts.push_back(watch_layout(one));

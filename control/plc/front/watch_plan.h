@@ -17,6 +17,7 @@ struct WatchPlan {
   std::vector<base::Diagnostic> diagnostics;
   std::string space;                 // namespace of the shared variables
   std::unique_ptr<Program> program;  // the program that `layouts` refer to
+  std::vector<std::string> modules;  // of each of its tasks
   std::vector<const TaskProgram*> instances;
   std::vector<WatchLayout> layouts;  // one for each of them
   plcopen::Document document;

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """indurop-serve before a PLC program: ladder, text and chart with their values. plc_test.py PROGRAMS FAKE_NODE [TEST...]"""
 
+import json
 import subprocess
 
 import harness
@@ -108,6 +109,31 @@ def test_shows_text_and_steps(setting):
     values, steps = live()
     assert "n = 7" in values["values"] and steps["conditions"][0] == "go = TRUE", (values, steps)
     assert steps["times"][0] == "" and steps["times"][1].startswith("T#"), steps
+
+
+def test_describes_where_values_are(setting):
+    (setting.folder / "line.st").write_text(LINE)
+    built = indurop(setting, "plc", "build", setting.folder / "line.st", "-o", setting.folder / "out", "--watch")
+    (setting.folder / "out" / "module.xml").write_text(f"<root>\n{built}</root>\n")
+    run(setting, setting.folder / "out" / "module.xml")
+    server = setting.start_server("--plc", setting.folder / "line.st")
+    model = asked(server, f"{API}/boards/{setting.node}/plc/model")
+    assert (model["program"], model["tasks"]) == ("line", [{"name": "", "module": "line"}]), model
+    assert model["globals"] == ["line::go"], model
+    main, steps = model["instances"]
+    assert (main["name"], main["variable"], steps["name"]) == ("main", "line::main_watch", "steps"), model
+    types = [model["types"][one["type"]] for one in (main, steps)]
+    go, n = ({one["name"]: one for one in types[0]["variables"]}[name] for name in ("go", "n"))
+    assert go["section"] == "external" and go["variable"] == "line::go" and "offset" not in go, go
+    assert n["section"] == "local" and n["type"] == {"kind": "i16", "iec": "INT", "size": 2}, n
+    assert [one["name"] for one in types[1]["variables"] if one.get("step")] == ["rest", "run"], types[1]
+    indurop(setting, "set", "--node", setting.node, "go", "true")
+
+    def data():
+        return bytes(json.loads(indurop(setting, "get", "--node", setting.node, "-o", "json", main["variable"]))["values"][0]["value"])
+    at = main["offset"] + n["offset"]
+    wait_for(lambda: int.from_bytes(data()[at:at + 2], "little") == 7, "the value")
+    assert data()[:8] == int(main["mark"], 16).to_bytes(8, "little")
 
 
 def test_follows_a_program_that_is_exchanged(setting):

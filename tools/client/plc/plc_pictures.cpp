@@ -181,6 +181,10 @@ Result<base::Json, Failure> PlcPictures::pictures(const std::string& node, const
   return answer(node, program, true, &PlcView::pictures);
 }
 
+Result<base::Json, Failure> PlcPictures::model(const std::string& node, const std::string& program) {
+  return answer(node, program, true, &PlcView::model);
+}
+
 Result<base::Json, Failure> PlcPictures::live(const std::string& node, const std::string& program) {
   return answer(node, program, false, &PlcView::live);
 }

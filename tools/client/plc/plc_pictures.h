@@ -41,7 +41,9 @@ class PlcPictures {
   // Returns the drawings of `program`, or, if it is empty, of the first one that the node runs. Errors: there is none
   // of that name; its files have errors; the node does not run it, or it was built without --watch.
   Result<base::Json, Failure> pictures(const std::string& node, const std::string& program);
-  // Returns the values that change in them. The same errors.
+  // Returns its tasks, programs and types, and where the values of its variables are. The same errors.
+  Result<base::Json, Failure> model(const std::string& node, const std::string& program);
+  // Returns the values that change in the drawings. The same errors.
   Result<base::Json, Failure> live(const std::string& node, const std::string& program);
 
  private:

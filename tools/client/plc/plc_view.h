@@ -56,6 +56,8 @@ class PlcView {
   // For other programs: the drawings, which are constant, and the values that change in them, in the same order.
   [[nodiscard]] JsonValue pictures() const;
   [[nodiscard]] JsonValue live() const;
+  // For programs that show instances as objects: tasks, programs, types, and where values are in the watched data.
+  [[nodiscard]] JsonValue model() const;
 
  private:
   Result<void, Failure> choose();

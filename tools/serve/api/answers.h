@@ -39,6 +39,7 @@ Reply replay_recording(Api& api, const Call& call);
 
 Reply plc(Api& api, const Call& call);
 Reply plc_live(Api& api, const Call& call);
+Reply plc_model(Api& api, const Call& call);
 
 Reply plant(Api& api, const Call& call);
 Reply plant_history(Api& api, const Call& call);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers about the PLC program: its drawings, and the values that change in them.
+// Answers about the PLC program: its drawings, the values that change in them, what it consists of.
 #include <utility>
 
 #include "core/base/exit_code.h"
@@ -37,6 +37,10 @@ Reply plc(Api& /*api*/, const Call& call) {
 
 Reply plc_live(Api& /*api*/, const Call& call) {
   return ask(call, &tools::PlcPictures::live);
+}
+
+Reply plc_model(Api& /*api*/, const Call& call) {
+  return ask(call, &tools::PlcPictures::model);
 }
 
 }  // namespace indurop::serve::answers

@@ -86,6 +86,7 @@ std::span<const Route> all_routes() {
             &answers::accept_calibration, kLocalOnly},
       Route{kGet, "/api/v1/boards/{board}/plc", kLook, Pace::Plc, &answers::plc, kLocalOnly},
       Route{kGet, "/api/v1/boards/{board}/plc/live", kLook, Pace::Plc, &answers::plc_live, kLocalOnly},
+      Route{kGet, "/api/v1/boards/{board}/plc/model", kLook, Pace::Plc, &answers::plc_model, kLocalOnly},
       Route{kGet, "/api/v1/plant", kLook, Pace::Plant, &answers::plant, kLocalOnly},
       Route{kGet, "/api/v1/plant/history", kLook, Pace::Plant, &answers::plant_history, kLocalOnly},
       Route{kGet, "/api/v1/plant/difference", kLook, Pace::Plant, &answers::plant_difference, kLocalOnly},
