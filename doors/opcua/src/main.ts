@@ -55,7 +55,7 @@ async function run(options: Options): Promise<void> {
     await server.shutdown(0);
     return;
   }
-  watch_items(server, (node) => by_node.get(node) ?? boards.robots.find(node), boards.follow, options.rate_hz);
+  watch_items(server, (node) => by_node.get(node) ?? boards.robots.find(node) ?? boards.programs.find(node), boards.follow, options.rate_hz);
   users.begin(server);
   alarms.begin();
   await server.start();

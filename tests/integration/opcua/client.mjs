@@ -68,10 +68,13 @@ const actions = {
     session = subscription = undefined;
     items.clear();
   },
-  async browse({ node }) {
-    const answer = await session.browse({ nodeId: node, referenceTypeId: "HierarchicalReferences", includeSubtypes: true, resultMask: 63 });
+  // all: references of any type in both directions, not only those down the hierarchy.
+  async browse({ node, all }) {
+    const answer = await session.browse({
+      nodeId: node, referenceTypeId: all ? "References" : "HierarchicalReferences", includeSubtypes: true, resultMask: 63, browseDirection: all ? 2 : 0,
+    });
     return (answer.references ?? []).map((one) => ({
-      node: one.nodeId.toString(), name: one.browseName.name, type: one.typeDefinition.toString(),
+      node: one.nodeId.toString(), name: one.browseName.name, type: one.typeDefinition.toString(), forward: one.isForward,
       namespace: one.browseName.namespaceIndex, reference: one.referenceTypeId.toString(), kind: ua.NodeClass[one.nodeClass],
     }));
   },

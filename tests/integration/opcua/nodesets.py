@@ -28,10 +28,11 @@ class Declared:
 
 
 class NodeSets:
-    def __init__(self, folder):
+    def __init__(self, folder, *others):
+        """others: further files, each after those that it refers to."""
         self.nodes = {}
         references = []
-        for file in FILES:
+        for file in (*FILES, *others):
             root = ElementTree.parse(pathlib.Path(folder) / file).getroot()
             uris = [UA] + [one.text for one in root.iterfind(f"{TAG}NamespaceUris/{TAG}Uri")]
             aliases = {one.get("Alias"): one.text for one in root.iterfind(f"{TAG}Aliases/{TAG}Alias")}

@@ -34,6 +34,17 @@ function indices(dims: number[], at: number): string {
   return text;
 }
 
+// "[1][2]", or as IEC 61131-3 writes it, with its bounds: "[1,2]".
+export function index_text({ dims, low }: Form, at: number): string {
+  if (!low) return indices(dims!, at);
+  const texts: string[] = [];
+  for (let dim = dims!.length - 1; dim >= 0; dim--) {
+    texts.unshift(`${(at % dims![dim]) + low[dim]}`);
+    at = Math.floor(at / dims![dim]);
+  }
+  return `[${texts.join(",")}]`;
+}
+
 function count_parts(form: Form): number {
   if (form.kind !== "struct") return 1;
   const inner = (form.fields ?? []).reduce((sum, field) => sum + count_parts(field.type), 1);
@@ -56,8 +67,8 @@ function field_part(field: Field, parent: Part): Part {
 }
 
 function element_part(parent: Part, index: number): Part {
-  const label = indices(parent.form.dims!, index);
-  const { dims: _, ...form } = parent.form;
+  const label = index_text(parent.form, index);
+  const { dims: _, low: __, ...form } = parent.form;
   const part: Part = {
     ...parent,
     path: parent.path + label,
@@ -70,7 +81,7 @@ function element_part(parent: Part, index: number): Part {
   return part;
 }
 
-function children_of(part: Part): Part[] {
+export function children_of(part: Part): Part[] {
   if (part.form.kind !== "struct") return [];
   if (!part.form.dims?.length) return (part.form.fields ?? []).map((field) => field_part(field, part));
   return Array.from({ length: elements_of(part.form) }, (_, index) => element_part(part, index));

@@ -9,7 +9,7 @@ import { elements_of } from "./part";
 const BUILT_IN = {
   bool: DataType.Boolean, char: DataType.Byte, i8: DataType.SByte, u8: DataType.Byte, i16: DataType.Int16, u16: DataType.UInt16,
   i32: DataType.Int32, u32: DataType.UInt32, i64: DataType.Int64, u64: DataType.UInt64, f32: DataType.Float, f64: DataType.Double,
-  text: DataType.String, enum: DataType.Int32, struct: DataType.ExtensionObject,
+  text: DataType.String, wide_text: DataType.String, enum: DataType.Int32, struct: DataType.ExtensionObject, instance: DataType.Null, reference: DataType.Null,
 } as const;
 
 // Makes the object of a structure from its fields.
@@ -29,6 +29,18 @@ function text_at(bytes: Buffer, at: number, size: number): string {
   return bytes.toString("utf8", at, end < 0 || end > at + size ? at + size : end);
 }
 
+function wide_text_at(bytes: Buffer, at: number, size: number): string {
+  const text = bytes.toString("utf16le", at, at + size);
+  const end = text.indexOf("\0");
+  return end < 0 ? text : text.slice(0, end);
+}
+
+// Those of local variables of PLC programs have other sizes, too.
+function enum_at(bytes: Buffer, at: number, { size, unsigned }: Form): number {
+  const length = Math.min(size, 4);
+  return unsigned && length < 4 ? bytes.readUIntLE(at, length) : bytes.readIntLE(at, length);
+}
+
 function element(bytes: Buffer, at: number, form: Form, construct: Construct): unknown {
   switch (form.kind) {
     case "bool": return bytes[at] !== 0;
@@ -37,7 +49,7 @@ function element(bytes: Buffer, at: number, form: Form, construct: Construct): u
     case "i8": return bytes.readInt8(at);
     case "i16": return bytes.readInt16LE(at);
     case "u16": return bytes.readUInt16LE(at);
-    case "enum":
+    case "enum": return enum_at(bytes, at, form);
     case "i32": return bytes.readInt32LE(at);
     case "u32": return bytes.readUInt32LE(at);
     case "i64":
@@ -45,6 +57,9 @@ function element(bytes: Buffer, at: number, form: Form, construct: Construct): u
     case "f32": return bytes.readFloatLE(at);
     case "f64": return bytes.readDoubleLE(at);
     case "text": return text_at(bytes, at, form.size);
+    case "wide_text": return wide_text_at(bytes, at, form.size);
+    case "instance":
+    case "reference": return null;
     case "struct":
       return construct(form, Object.fromEntries((form.fields ?? []).map(
         (field) => [key_of(field), plain(bytes, at + field.offset, field.type, construct)])));

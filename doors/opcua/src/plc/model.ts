@@ -1,68 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-// The types of OPC 30000 (PLCopen, IEC 61131-3), with DI, which it requires. No package of npm has them, so those that
-// programs need are stated here, with the ids of the standard.
+// The types of OPC 30000 (PLCopen, IEC 61131-3), with DI, which it requires. They are loaded for the first program.
 
-import type { AddressSpace, Namespace, UAObject, UAObjectType } from "node-opcua";
+import type { AddressSpace, BaseNode, Namespace, NodeId, UAObject, UAObjectType } from "node-opcua";
 
 import { load_nodesets } from "../space/nodesets";
+import type { PlcVariable } from "../serve/types";
+import { add_plcopen, DI, PLCOPEN } from "./nodeset";
 
-const DI = "http://opcfoundation.org/UA/DI/";
-export const PLCOPEN = "http://PLCopen.org/OpcUa/IEC61131-3/";
+// Types of OPC 30000 for elementary types of the compiler, whose times count nanoseconds in 64 bits.
+const DATA_TYPES: Record<string, string> = {
+  BYTE: "BYTE", WORD: "WORD", DWORD: "DWORD", LWORD: "LWORD", TIME: "LTIME", DATE: "LDATE", TIME_OF_DAY: "LTOD", DATE_AND_TIME: "LDT",
+  CHAR: "CHAR", WCHAR: "WCHAR", STRING: "STRING",
+};
 
-// Name, inverse name, id, supertype.
-const REFERENCES: [string, string, number, string][] = [
-  ["HasInputVar", "InputVarOf", 4001, "HasComponent"],
-  ["HasOutputVar", "OutputVarOf", 4002, "HasComponent"],
-  ["HasInOutVar", "InOutVarOf", 4003, "HasComponent"],
-  ["HasLocalVar", "LocalVarOf", 4004, "HasComponent"],
-  ["HasExternalVar", "ExternalVarOf", 4005, "Organizes"],
-  ["With", "Executes", 4006, "NonHierarchicalReferences"],
-];
-
-// Name, id, supertype, namespace of the supertype ("": this one), abstract.
-const TYPES: [string, number, string, string, boolean][] = [
-  ["CtrlConfigurationType", 1001, "TopologyElementType", DI, false],
-  ["CtrlResourceType", 1002, "DeviceType", DI, false],
-  ["CtrlProgramOrganizationUnitType", 1003, "BlockType", DI, true],
-  ["CtrlProgramType", 1004, "CtrlProgramOrganizationUnitType", "", true],
-  ["CtrlTaskType", 1006, "BaseObjectType", "http://opcfoundation.org/UA/", false],
-];
-
-// Mandatory folders of objects, and what is in them: type, id, name, then id, name and type of the placeholder.
-const FOLDERS: [string, number, string, number, string, string][] = [
-  ["CtrlConfigurationType", 5004, "Resources", 5005, "<ResourceName>", "CtrlResourceType"],
-  ["CtrlResourceType", 5014, "Tasks", 5015, "<TaskName>", "CtrlTaskType"],
-  ["CtrlResourceType", 5016, "Programs", 5017, "<ProgramName>", "CtrlProgramType"],
-];
-
-const TASK_PROPERTIES: [string, number, string, "Mandatory" | "Optional"][] = [
-  ["Priority", 6004, "UInt32", "Mandatory"],
-  ["Interval", 6005, "String", "Optional"],
-  ["Single", 6006, "String", "Optional"],
-];
+const SECTIONS: Record<PlcVariable["section"], string> = {
+  input: "HasInputVar", output: "HasOutputVar", in_out: "HasInOutVar", local: "HasLocalVar", external: "HasExternalVar",
+};
 
 export class PlcModel {
   readonly device_set: UAObject;
-  readonly external: string;  // id of HasExternalVar
-  readonly with_task: string;
+  readonly catalogue: UAObject;  // of the types of function blocks and programs
+  readonly index: number;
 
-  private constructor(private readonly space: AddressSpace, private readonly namespace: Namespace, private readonly standard: Namespace) {
+  private constructor(private readonly space: AddressSpace, private readonly namespace: Namespace, standard: Namespace) {
+    this.index = standard.index;
     this.device_set = space.rootFolder.objects.getFolderElementByName("DeviceSet", space.getNamespaceIndex(DI)) as UAObject;
-    this.external = `ns=${standard.index};i=4005`;
-    this.with_task = `ns=${standard.index};i=4006`;
+    this.catalogue = namespace.addObject({
+      browseName: { name: "CtrlTypes", namespaceIndex: this.index }, nodeId: "s=type/plc", organizedBy: space.findNode("i=88")!, typeDefinition: "FolderType",
+    });
   }
 
   static async load(space: AddressSpace, namespace: Namespace): Promise<PlcModel> {
     await load_nodesets(space, ["Opc.Ua.Di.NodeSet2"]);
-    const model = new PlcModel(space, namespace, space.registerNamespace(PLCOPEN));
-    model.define();
-    return model;
+    const standard = space.registerNamespace(PLCOPEN);
+    add_plcopen(space, standard);
+    return new PlcModel(space, namespace, standard);
   }
 
   // An object with what its type demands.
-  add(type: UAObjectType | string, id: string, name: string, parent: UAObject, optionals: string[] = []): UAObject {
-    const definition = typeof type === "string" ? this.type(type) : type;
-    return definition.instantiate({
+  add(type: string, id: string, name: string, parent: UAObject, optionals: string[] = []): UAObject {
+    return this.type(type).instantiate({
       namespace: this.namespace, browseName: { name, namespaceIndex: this.namespace.index }, nodeId: `s=${id}`, componentOf: parent, optionals,
     }) as UAObject;
   }
@@ -73,43 +50,36 @@ export class PlcModel {
     const di = this.space.getNamespaceIndex(DI);
     if (!folder.getChildByName("SupportedTypes")) {
       this.namespace.addObject({
-        browseName: { name: "SupportedTypes", namespaceIndex: di }, nodeId: `${folder.nodeId.toString().replace(/^ns=\d+;/, "")}-SupportedTypes`,
-        componentOf: folder, typeDefinition: "FolderType",
+        browseName: { name: "SupportedTypes", namespaceIndex: di }, nodeId: `${text_of(folder)}-SupportedTypes`, componentOf: folder, typeDefinition: "FolderType",
       });
     }
     return folder;
   }
 
-  // Programs are instances of types of their own: CtrlProgramType is abstract.
-  add_program_type(id: string, name: string): UAObjectType {
-    return this.namespace.addObjectType({ browseName: name, nodeId: `s=${id}`, subtypeOf: this.type("CtrlProgramType") });
+  has_type(name: string, { index }: Namespace): boolean {
+    return this.space.findObjectType(name, index) !== null;
   }
 
-  private type(name: string): UAObjectType {
-    return this.space.findObjectType(name, this.standard.index)!;
+  type(name: string): UAObjectType {
+    return this.space.findObjectType(name, this.index)!;
   }
 
-  private define(): void {
-    for (const [browseName, inverseName, id, subtypeOf] of REFERENCES) {
-      this.standard.addReferenceType({ browseName, inverseName, nodeId: `i=${id}`, subtypeOf } as any);
-    }
-    for (const [browseName, id, supertype, uri, isAbstract] of TYPES) {
-      const index = uri === "" ? this.standard.index : this.space.getNamespaceIndex(uri);
-      this.standard.addObjectType({ browseName, nodeId: `i=${id}`, isAbstract, subtypeOf: this.space.findObjectType(supertype, index)! });
-    }
-    for (const [name, id, dataType, modellingRule] of TASK_PROPERTIES) {
-      this.standard.addVariable({ browseName: name, nodeId: `i=${id}`, propertyOf: this.type("CtrlTaskType"), dataType, modellingRule });
-    }
-    const di = this.space.getNamespaceIndex(DI);
-    const container = this.space.findObjectType("ConfigurableObjectType", di)!;
-    for (const [owner, id, name, inner, inner_name, inner_type] of FOLDERS) {
-      const folder = this.standard.addObject({
-        browseName: name, nodeId: `i=${id}`, componentOf: this.type(owner), typeDefinition: container, modellingRule: "Mandatory",
-      });
-      this.standard.addObject({
-        browseName: { name: inner_name, namespaceIndex: di }, nodeId: `i=${inner}`, componentOf: folder,
-        typeDefinition: this.type(inner_type), modellingRule: "OptionalPlaceholder",
-      });
-    }
+  reference(name: string): NodeId {
+    return this.space.findReferenceType(name, this.index)!.nodeId;
   }
+
+  section(section: PlcVariable["section"]): NodeId {
+    return this.reference(SECTIONS[section]);
+  }
+
+  // Nothing for types that are as those of OPC UA.
+  data_type = (iec: string): NodeId | undefined => {
+    const name = DATA_TYPES[iec];
+    return name ? this.space.findDataType(name, this.index)!.nodeId : undefined;
+  };
+}
+
+// The id of a node without its namespace.
+export function text_of(node: BaseNode): string {
+  return node.nodeId.toString().replace(/^ns=\d+;/, "");
 }

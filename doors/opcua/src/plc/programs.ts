@@ -2,118 +2,135 @@
 // The PLC programs of all boards by the model of OPC 30000: those that `indurop serve --plc` was given and the board
 // runs. A plant without them has none of it.
 
-import { DataType, type UAObject, type UAObjectType } from "node-opcua";
-
 import { log, message_of } from "../log";
 import { board_path, Refused, type ServeClient } from "../serve/http";
-import type { ModuleDescription, PlcDescription, VariableDescription } from "../serve/types";
-import { node_at, set_name, set_text } from "../space/set";
+import type { ModuleDescription, PlcDescription } from "../serve/types";
 import type { BoardTree, Space } from "../space/tree";
+import type { Local } from "./local";
 import { PlcModel } from "./model";
+import { PouTypes } from "./pou_types";
+import { Configuration } from "./resource";
 
-const US = 1000;
+const RETRY_MS = 1000;  // at first, then twice as long each time
+const LONGEST_RETRY_MS = 60_000;
 
-// As IEC 61131-3 writes times.
-function time_of(ns: number): string {
-  return ns % US === 0 ? `T#${ns / US}us` : `T#${ns}ns`;
+interface Latest {
+  tree: BoardTree;
+  layout: string;
+  here: boolean;  // the board is on the server's own host
 }
 
-interface Shown {
-  program: UAObject;
-  task: UAObject;
+interface Loaded {
+  model: PlcModel;
+  types: PouTypes;
 }
 
 export class Programs {
-  private readonly resources = new Map<string, UAObject>();
-  private readonly shown = new Map<string, Shown>();  // by node id of the program
-  private model: Promise<PlcModel> | undefined;
+  private readonly configurations = new Map<string, Configuration>();  // by board
+  private readonly latest = new Map<string, Latest>();
+  private readonly turns = new Map<string, Promise<void>>();  // one at a time of each board
+  private readonly retries = new Map<string, NodeJS.Timeout>();
+  private readonly tries = new Map<string, number>();
+  private loading: Promise<Loaded> | undefined;
 
   constructor(private readonly client: ServeClient, private readonly space: Space, private readonly version: string) {}
 
+  // By the text of its node id.
+  find(node: string): Local | undefined {
+    for (const configuration of this.configurations.values()) {
+      const local = configuration.instances.find(node);
+      if (local) return local;
+    }
+    return undefined;
+  }
+
   // The board has these variables now.
-  async update(tree: BoardTree, list: VariableDescription[], here: boolean): Promise<void> {
-    try {
-      const modules = here ? await this.modules_of(tree.board) : [];
-      if (modules.length === 0 && !this.resources.has(tree.board)) return;
-      this.model ??= PlcModel.load(this.space.address_space, this.space.namespace);
-      const model = await this.model;
-      this.space.address_space.modelChangeTransaction(() => this.show(model, tree, modules, list));
-    } catch (error) {
-      log(`${tree.board}: its PLC programs cannot be shown: ${message_of(error)}`);
-    }
+  update(tree: BoardTree, here: boolean): Promise<void> {
+    this.latest.set(tree.board, { tree, layout: tree.layout, here });
+    this.tries.delete(tree.board);
+    return this.renew(tree.board);
   }
 
-  private show(model: PlcModel, tree: BoardTree, modules: ModuleDescription[], list: VariableDescription[]): void {
-    const resource = this.resources.get(tree.board) ?? this.add_resource(model, tree.board);
-    this.resources.set(tree.board, resource);
-    for (const [id, { program, task }] of this.shown) {
-      if (!id.startsWith(`${tree.board}/plc/`)) continue;
-      for (const one of program.findReferences(model.external, true)) program.removeReference(one);
-      const name = program.browseName.name!;
-      if (modules.some((one) => one.name === name)) continue;
-      for (const node of [program, task]) this.space.namespace.deleteNode(node);
-      this.shown.delete(id);
-    }
-    for (const module of modules) {
-      const { program, task } = this.program_of(model, tree.board, resource, module);
-      node_at(task, "Priority").setValueFromSource({ dataType: DataType.UInt32, value: module.priority });
-      const interval = module.operation === "periodic" ? time_of(module.period_ns) : "";
-      if (task.getChildByName("Interval")) set_text(task, "Interval", interval);
-      for (const { name, writers, readers } of list) {
-        const node = /_watch$/.test(name) ? undefined : tree.node_of(name);  // not of the program: made by `--watch`
-        if (node && [...(writers ?? []), ...(readers ?? [])].includes(module.name)) {
-          program.addReference({ referenceType: model.external, nodeId: node.nodeId });
-        }
+  sweep(): void {
+    for (const { instances } of this.configurations.values()) this.space.address_space.modelChangeTransaction(() => instances.sweep());
+  }
+
+  stop(): void {
+    for (const retry of this.retries.values()) clearTimeout(retry);
+  }
+
+  private renew(board: string): Promise<void> {
+    clearTimeout(this.retries.get(board));
+    this.retries.delete(board);
+    const turn = (this.turns.get(board) ?? Promise.resolve()).then(() => this.show(board)).catch((error) => {
+      log(`${board}: its PLC programs cannot be shown: ${message_of(error)}`);
+      this.try_again(board);
+    });
+    this.turns.set(board, turn);
+    return turn;
+  }
+
+  private try_again(board: string): void {
+    if (this.retries.has(board)) return;
+    const tries = this.tries.get(board) ?? 0;
+    this.tries.set(board, tries + 1);
+    this.retries.set(board, setTimeout(() => void this.renew(board), Math.min(RETRY_MS * 2 ** tries, LONGEST_RETRY_MS)));
+  }
+
+  private async show(board: string): Promise<void> {
+    const { tree, layout, here } = this.latest.get(board)!;
+    const before = this.configurations.get(board);
+    const expected = (here && before?.expected(tree)) || [];
+    const programs = here ? await this.programs_of(board, expected) : [];
+    if (programs.length > 0 || (before && !before.is_empty)) await this.place(tree, layout, programs);
+    // A program that is exchanged is not the one in the server's files until these are read again.
+    if (expected.some((name) => !programs.some(({ program }) => program === name))) this.try_again(board);
+    else this.tries.delete(board);
+  }
+
+  private async place(tree: BoardTree, layout: string, programs: PlcDescription[]): Promise<void> {
+    const { board } = tree;
+    const { modules } = programs.length > 0 ? await this.client.get<{ modules: ModuleDescription[] }>(board_path(board, "/modules")) : { modules: [] };
+    const { model, types } = await (this.loading ??= this.load());
+    for (const program of programs) types.prepare(program.types);
+    await this.space.types.register();
+    if (tree.layout !== layout) return;  // its variables have changed meanwhile; it is updated again
+    let configuration = this.configurations.get(board);
+    this.space.address_space.modelChangeTransaction(() => {
+      if (!configuration) {
+        configuration = new Configuration(this.space, model, types, board, this.version);
+        this.configurations.set(board, configuration);
       }
-    }
+      configuration.update(programs, modules, tree, () => this.try_again(board));
+    });
+    if (configuration!.instances.too_many) log(`${board}: its PLC programs have more than 50000 variables and instances: not all are shown by the PLCopen model`);
   }
 
-  private program_of(model: PlcModel, board: string, resource: UAObject, { name, operation }: ModuleDescription): Shown {
-    const id = `${board}/plc/${name}`;
-    let shown = this.shown.get(id);
-    if (!shown) {
-      const type_id = `type/${id}`;
-      const type = (this.space.namespace.findNode(`s=${type_id}`) as UAObjectType | null) ?? model.add_program_type(type_id, name);
-      const optionals = operation === "periodic" ? ["Interval"] : [];
-      shown = {
-        program: model.add(type, id, name, model.folder(resource, "Programs")),
-        task: model.add("CtrlTaskType", `${id}/task`, name, model.folder(resource, "Tasks"), optionals),
-      };
-      shown.program.addReference({ referenceType: model.with_task, nodeId: shown.task.nodeId });
-      this.shown.set(id, shown);
-    }
-    return shown;
+  private async load(): Promise<Loaded> {
+    const model = await PlcModel.load(this.space.address_space, this.space.namespace);
+    this.space.types.of_iec = model.data_type;
+    return { model, types: new PouTypes(model, this.space.namespace, this.space.types) };
   }
 
-  // What the model demands and the board does not know is an empty text.
-  private add_resource(model: PlcModel, board: string): UAObject {
-    const configuration = model.add("CtrlConfigurationType", `${board}/plc`, board, model.device_set);
-    const resource = model.add("CtrlResourceType", `${board}/plc-resource`, board, model.folder(configuration, "Resources"));
-    for (const name of ["Manufacturer", "Model"]) set_name(resource, name, "");
-    for (const name of ["SerialNumber", "DeviceManual", "DeviceRevision", "HardwareRevision"]) set_text(resource, name, "");
-    set_text(resource, "SoftwareRevision", this.version);
-    node_at(resource, "RevisionCounter").setValueFromSource({ dataType: DataType.Int32, value: -1 });
-    return resource;
-  }
-
-  // The modules of its PLC programs. None if the server was given none, or the board runs none of them.
-  private async modules_of(board: string): Promise<ModuleDescription[]> {
-    const first = await this.plc_of(board, "");
+  // None if the server was given none, or the board runs none of them. expected: those that it ran before.
+  private async programs_of(board: string, expected: string[]): Promise<PlcDescription[]> {
+    const first = await this.program_of(board, "", expected.length > 0);
     if (!first) return [];
-    const { modules } = await this.client.get<{ modules: ModuleDescription[] }>(board_path(board, "/modules"));
-    const names: string[] = [];
+    const all: PlcDescription[] = [];
     for (const name of first.programs) {
-      if (name === first.program || await this.plc_of(board, `?program=${encodeURIComponent(name)}`)) names.push(name);
+      const one = name === first.program ? first : await this.program_of(board, `?program=${encodeURIComponent(name)}`, expected.includes(name));
+      if (one) all.push(one);
     }
-    return modules.filter(({ name }) => names.includes(name));
+    return all;
   }
 
-  private async plc_of(board: string, query: string): Promise<PlcDescription | undefined> {
+  // again: the server reads the files of a program that was exchanged with the next request.
+  private async program_of(board: string, query: string, again: boolean): Promise<PlcDescription | undefined> {
     try {
-      return await this.client.get<PlcDescription>(board_path(board, `/plc${query}`));
+      return await this.client.get<PlcDescription>(board_path(board, `/plc/model${query}`));
     } catch (error) {
-      if (error instanceof Refused && error.code !== 0) return undefined;
-      throw error;
+      if (!(error instanceof Refused) || error.code === 0) throw error;
+      return again ? this.program_of(board, query, false) : undefined;
     }
   }
 }

@@ -16,12 +16,19 @@ export interface Field {
 }
 
 export interface Form {
-  kind: "bool" | "char" | "i8" | "u8" | "i16" | "u16" | "i32" | "u32" | "i64" | "u64" | "f32" | "f64" | "text" | "enum" | "struct";
+  kind: "bool" | "char" | "i8" | "u8" | "i16" | "u16" | "i32" | "u32" | "i64" | "u64" | "f32" | "f64" | "text" | "enum" | "struct"
+    | "wide_text" | "instance" | "reference";  // of local variables of PLC programs
   name?: string;
   size: number;  // bytes of one element
   dims?: number[];
   fields?: Field[];
   enumerators?: Record<string, number>;
+  // Of local variables of PLC programs:
+  iec?: string;  // "TIME"
+  low?: number[];  // first index of each dimension
+  range?: Range | null;
+  unsigned?: boolean;  // an enum
+  instance?: number;  // of a function block: its type in PlcDescription
 }
 
 export interface VariableDescription {
@@ -53,10 +60,43 @@ export interface ModuleDescription {
   priority: number;
 }
 
+export interface PlcVariable {
+  name: string;
+  section: "input" | "output" | "in_out" | "local" | "external";
+  type: Form;
+  offset?: number;  // from the begin of the instance; absent: the value is not reported
+  variable?: string;  // the shared variable that it is
+  step?: boolean;
+  retain?: boolean;
+  non_retain?: boolean;
+  description?: string;
+}
+
+export interface PlcType {
+  name: string;
+  kind: "program" | "block" | "library";
+  base?: number;
+  size: number;
+  variables: PlcVariable[];
+}
+
+export interface PlcInstance {
+  name: string;
+  task: number;
+  type: number;
+  variable: string;
+  mark: string;
+  offset: number;
+}
+
 // Of a program that was given with `--plc` and that the board runs.
 export interface PlcDescription {
-  program: string;  // its module
+  program: string;
   programs: string[];  // all that were given
+  tasks: { name: string; module: string; single?: string }[];
+  instances: PlcInstance[];
+  types: PlcType[];
+  globals: string[];
 }
 
 export interface StreamBoard {

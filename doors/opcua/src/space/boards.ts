@@ -50,14 +50,20 @@ export class Boards {
     for (const { board, alive } of boards) if (alive) this.running.add(board);
     await Promise.all(boards.map(({ board, layout }) => this.update(board, layout)));
     this.stream.open();
-    this.sweeping = setInterval(() => { for (const tree of this.trees.values()) tree.sweep(); }, SWEEP_MS);
+    this.sweeping = setInterval(() => { this.sweep(); }, SWEEP_MS);
   }
 
   stop(): void {
     clearInterval(this.sweeping);
     this.follow.stop();
     this.robots.stop();
+    this.programs.stop();
     this.stream.close();
+  }
+
+  private sweep(): void {
+    for (const tree of this.trees.values()) tree.sweep();
+    this.programs.sweep();
   }
 
   private lost(why: string): void {
@@ -102,7 +108,7 @@ export class Boards {
       await tree.update(list.variables, list.layout, here !== false);
       await this.methods.update(tree, here === false ? [] : await this.functions_of(board));
       const unshown = await this.robots.update(tree, list.variables, here !== false);
-      await this.programs.update(tree, list.variables, here !== false);
+      await this.programs.update(tree, here !== false);
       this.note([...notes_of(list.variables), ...unshown, ...this.space.types.notes].map((note) => `${board}: ${note}`));
       this.follow.renew_board(board);
       await this.on_update(tree);

@@ -22,6 +22,10 @@ export function set_number(from: BaseNode, path: string, value: number): void {
   node_at(from, path).setValueFromSource({ dataType: DataType.Int32, value });
 }
 
+export function set_unsigned(from: BaseNode, path: string, value: number): void {
+  node_at(from, path).setValueFromSource({ dataType: DataType.UInt32, value });
+}
+
 export function set_unit(from: BaseNode, path: string, unit: string): void {
   node_at(from, `${path}/EngineeringUnits`).setValueFromSource({ dataType: DataType.ExtensionObject, value: unit_of(unit) });
 }

@@ -15,7 +15,7 @@ import type { Field, Form } from "../serve/types";
 const DIGEST_LENGTH = 8;
 
 function signature(form: Form): string {
-  const { dims: _, ...element } = form;
+  const { dims: _, low: __, range: ___, ...element } = form;
   return JSON.stringify(element);
 }
 
@@ -25,11 +25,15 @@ export class Types {
   private unregistered = false;
   // What a structure cannot show as it is, for people.
   readonly notes = new Set<string>();
+  // Types of their own for elementary types of IEC 61131-3, once a PLC program is shown.
+  of_iec: (iec: string) => NodeId | undefined = () => undefined;
 
   constructor(private readonly space: AddressSpace, private readonly namespace: Namespace) {}
 
   // The type's node; it is made if necessary. Before values of new structures are made: register().
   of(form: Form): NodeId {
+    const of_iec = form.iec ? this.of_iec(form.iec) : undefined;
+    if (of_iec) return of_iec;
     return form.kind === "struct" || form.kind === "enum" ? this.node(form).nodeId : this.space.findDataType(built_in(form))!.nodeId;
   }
 

@@ -14,6 +14,13 @@ export interface Watched {
   variable: Variable;
   items: number;  // monitored items
   derive?: Derive;
+  marked?: boolean;  // its value is there only if the variable has the mark that is expected
+}
+
+// Of the data of a PLC program: its first 8 bytes are 0 until the program has run, and differ if another one runs.
+export interface Mark {
+  expected: Buffer;
+  on_other: () => void;
 }
 
 // From the part's value. null: it does not say that.
@@ -31,6 +38,7 @@ export interface Source {
   wall_ms: number;
 }
 
+const NO_MARK = Buffer.alloc(8);
 const QUALITY = 3;  // bits of a frame's quality byte
 const FORCED = 4;
 const BY_QUALITY: StatusCode[] = [
@@ -49,6 +57,7 @@ function code_of(alive: boolean, quality: number): StatusCode {
 export class Variable {
   readonly parts = new Map<string, PartNode>();
   readonly monitored = new Set<Watched>();
+  mark: Mark | undefined;
   gone = false;  // its board has no such variable any more
   wanted_until_ms = 0;
   waiting: (() => void)[] = [];  // reads that wait for the first frame
@@ -72,9 +81,11 @@ export class Variable {
     if (!moved && code === old_code) return;
     this.code = code;
     this.changed = new Date(source.wall_ms);
+    const other = this.mark !== undefined && (before === null || !same_bytes(before, old_offset, this.bytes!, offset, NO_MARK.length));
+    if (other && this.mark_code() === StatusCodes.BadConfigurationError) this.mark!.on_other();
     for (const one of this.monitored) {
       const { part } = one;
-      if (before === null || code !== old_code
+      if (before === null || code !== old_code || (other && one.marked)
         || !same_bytes(before, old_offset + part.offset, this.bytes!, offset + part.offset, bytes_of(part.form))) {
         this.tell(one);
       }
@@ -93,13 +104,14 @@ export class Variable {
     this.wake();
   }
 
-  value_for({ part, derive }: Watched): DataValue {
-    const bad = this.bytes === null || this.code.isBad();
+  value_for({ part, derive, marked }: Watched): DataValue {
+    const code = marked && this.bytes !== null && !this.code.isBad() ? this.mark_code() ?? this.code : this.code;
+    const bad = this.bytes === null || code.isBad();
     let value: Variant | null = bad ? new Variant() : variant_at(this.bytes!, this.offset + part.offset, part.form, this.construct);
     if (derive && !bad) value = derive(value.value);
     return new DataValue({
       value: value ?? new Variant(),
-      statusCode: value ? this.code : StatusCodes.BadNotSupported,
+      statusCode: value ? code : StatusCodes.BadNotSupported,
       sourceTimestamp: this.changed,
       serverTimestamp: new Date(),
     });
@@ -109,6 +121,13 @@ export class Variable {
     const waiting = this.waiting;
     this.waiting = [];
     for (const done of waiting) done();
+  }
+
+  // Why the data is not that of the expected program; nothing: it is.
+  private mark_code(): StatusCode | undefined {
+    const is = (mark: Buffer): boolean => same_bytes(mark, 0, this.bytes!, this.offset, mark.length);
+    if (!this.mark || is(this.mark.expected)) return undefined;
+    return is(NO_MARK) ? StatusCodes.BadWaitingForInitialData : StatusCodes.BadConfigurationError;
   }
 
   private tell(one: Watched): void {
