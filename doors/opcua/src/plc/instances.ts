@@ -26,6 +26,7 @@ interface Entry extends Place {
   shown: boolean;  // it has a place in the tree
   round: number;  // of the last update that has it
   local?: Local;
+  declared?: string;  // of a variable: what its attributes and properties are made of
   links: { referenceType: NodeId; nodeId: NodeId }[];  // to nodes that are elsewhere
 }
 
@@ -153,17 +154,20 @@ export class Instances {
   }
 
   private value(part: Part, has_value: boolean, variable: Variable, place: Place, words: Words): void {
+    const declared = JSON.stringify([part.form, part.description, words.retain, words.non_retain]);
     const known = this.entries.get(part.path);
-    if (known && (known.local !== undefined) !== has_value) this.discard_all(part.path, known);
+    const fits = (known?.local !== undefined) === has_value && (has_value || known?.declared === declared);
+    if (known && !fits) this.discard_all(part.path, known);
     let entry = this.entries.get(part.path);
     if (entry) {
-      const before = entry.local?.part.form;
       entry.local?.move(part, variable);
       this.attach(part.path, entry, place);
-      if (before && JSON.stringify(before) !== JSON.stringify(part.form)) this.renew_properties(entry.node as UAVariable, part, words);
+      if (entry.declared !== declared) this.declare_again(entry.node as UAVariable, part, words);
+      entry.declared = declared;
     } else {
       entry = this.keep(part.path, place, () => this.make(part, has_value, place, words));
       if (!entry) return;
+      entry.declared = declared;
       if (has_value) {
         entry.local = new Local(entry.node as UAVariable, part, variable, this.space);
         this.locals.set(entry.node.nodeId.toString(), entry.local);
@@ -184,7 +188,8 @@ export class Instances {
     return node;
   }
 
-  private renew_properties(node: UAVariable, part: Part, words: Words): void {
+  private declare_again(node: UAVariable, part: Part, words: Words): void {
+    (node as any).description = { text: part.description };
     for (const property of node.getProperties()) this.space.namespace.deleteNode(property);
     add_properties(this.space, node, part.form, words, this.model.index);
   }
