@@ -19,9 +19,10 @@ REFERENCES = {"input": 4001, "output": 4002, "in_out": 4003, "local": 4004, "ext
 DEVICE = {"SerialNumber": "String", "RevisionCounter": "Int32", "Manufacturer": "LocalizedText", "Model": "LocalizedText",
           "DeviceManual": "String", "DeviceRevision": "String", "SoftwareRevision": "String", "HardwareRevision": "String"}
 VARIABLES = {"start", "stop", "motor"}  # of conveyor.xml, at addresses
-MODULE = """<module><filename>./{name}.so</filename><moduletype>thread</moduletype><operationtype>periodic</operationtype>
-<period>{period}</period><priority>{priority}</priority></module>
+MODULE = """<module><filename>./opcua_plant_{name}.so</filename><moduletype>thread</moduletype><operationtype>{kind}</operationtype>
+<{time}>{value}</{time}><priority>{priority}</priority></module>
 """
+TASKS = (("fast", "periodic", "period", "5ms"), ("slow", "periodic", "period", "50ms"), ("rare", "sporadic", "deadline", "50ms"))
 # The members of `main` in plant.st, by section; types are those of OPC UA, or names of OPC 30000 and of the program.
 MAIN = {
     "input": {"offset": "Int16"}, "output": {"done": "Boolean"},
@@ -95,10 +96,11 @@ def start(setting, *options):
 
 def start_plant(setting):
     """The tasks of plant.st."""
-    for name in ("opcua_plant_fast.so", "opcua_plant_slow.so"):
-        shutil.copy(pathlib.Path(os.environ["OPCUA_PLANT"]) / name, setting.folder)
-    (setting.folder / "plant.xml").write_text("<root>" + MODULE.format(name="opcua_plant_fast", period="5ms", priority=1) +
-                                              MODULE.format(name="opcua_plant_slow", period="50ms", priority=2) + "</root>\n")
+    modules = ""
+    for priority, (name, kind, time, value) in enumerate(TASKS, 1):
+        shutil.copy(pathlib.Path(os.environ["OPCUA_PLANT"]) / f"opcua_plant_{name}.so", setting.folder)
+        modules += MODULE.format(name=name, kind=kind, time=time, value=value, priority=priority)
+    (setting.folder / "plant.xml").write_text(f"<root>{modules}</root>\n")
     child = run(setting, setting.folder / "plant.xml")
     source = pathlib.Path(__file__).parent / "plant.st"
     server = setting.start_server("--plc", f"opcua_plant={source}", "--write")
@@ -155,13 +157,17 @@ def test_tasks_execute_their_programs(setting):
     _, client, space = start_plant(setting)
     resource = f"ns=2;s={setting.node}/plc/opcua_plant"
     tasks = {client.read(node, attribute="DisplayName")["value"]: node for node in space.of_type(space.folder(resource, "Tasks"), space.id(PLC, TASK))}
-    values = {name: [client.read(space.children(node)[(PLC, one)]["node"])["value"] for one in ("Priority", "Interval")] for name, node in tasks.items()}
-    assert values == {"fast": [1, "T#5000us"], "slow": [2, "T#50000us"]}, values
+    values = {name: {one["name"]: client.read(one["node"])["value"] for one in client.do("browse", node=node)} for name, node in tasks.items()}
+    assert values == {"fast": {"Priority": 1, "Interval": "T#5000us"}, "slow": {"Priority": 2, "Interval": "T#50000us"},
+                      "rare": {"Priority": 3, "Single": "opcua_plant::go"}}, values
     programs = {one["name"]: one for one in client.do("browse", node=space.folder(resource, "Programs")) if one["name"] != "SupportedTypes"}
-    assert programs.keys() == {"one", "two", "chart"}, programs
+    assert programs.keys() == {"one", "two", "chart", "event"}, programs
     executed = {name: [one["node"] for one in space.members(program["node"])["with"].values()] for name, program in programs.items()}
-    assert executed == {"one": [tasks["fast"]], "two": [tasks["slow"]], "chart": [tasks["slow"]]}, executed
-    assert programs["one"]["type"] == programs["two"]["type"] != programs["chart"]["type"], programs
+    assert executed == {"one": [tasks["fast"]], "two": [tasks["slow"]], "chart": [tasks["slow"]], "event": [tasks["rare"]]}, executed
+    assert programs["one"]["type"] == programs["two"]["type"] != programs["chart"]["type"] == programs["event"]["type"], programs
+    assert client.read(local(setting, "event.rest"))["code"] == "BadWaitingForInitialData", "it has not run"
+    setting.set("opcua_plant::go", 1)
+    wait_for(lambda: client.read(local(setting, "event.rest.X"))["value"] is True, "its first scan")
     declared = {one["name"]: one["node"] for one in client.do("browse", node=space.children(resource)[(PLC, "GlobalVars")]["node"])}
     assert {name: declared.get(name) for name in ("go", "limit")} == {name: setting.id(f"opcua_plant::{name}") for name in ("go", "limit")}, declared
 
