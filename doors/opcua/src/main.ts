@@ -50,7 +50,7 @@ async function run(options: Options): Promise<void> {
   const alarms = new Alarms(client, users, boards, space);
   await boards.begin();
   if (options.check) {
-    process.stdout.write(`${boards.trees.size} boards, ${by_node.size} variables and parts\n`);
+    process.stdout.write(`${boards.trees.size} boards, ${by_node.size} variables and parts, ${boards.programs.size} of PLC programs\n`);
     boards.stop();
     await server.shutdown(0);
     return;

@@ -48,6 +48,10 @@ export class Instances {
 
   constructor(private readonly space: Space, private readonly model: PlcModel) {}
 
+  get size(): number {
+    return this.entries.size;
+  }
+
   find(node: string): Local | undefined {
     return this.locals.get(node);
   }

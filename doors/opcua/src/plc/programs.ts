@@ -35,6 +35,11 @@ export class Programs {
 
   constructor(private readonly client: ServeClient, private readonly space: Space, private readonly version: string) {}
 
+  // Variables and instances of all programs.
+  get size(): number {
+    return [...this.configurations.values()].reduce((sum, { instances }) => sum + instances.size, 0);
+  }
+
   // By the text of its node id.
   find(node: string): Local | undefined {
     for (const configuration of this.configurations.values()) {
