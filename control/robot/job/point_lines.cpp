@@ -67,7 +67,7 @@ std::string pose_text(const Arm& arm, const Target& target, const WorkFrame* fra
   std::string out = pose_text(frame == nullptr ? target.pose : seen_from(frame->pose, target.pose));
   out += target.posture ? " POSTURE " + std::to_string(*target.posture) : "";
   for (int i = 0; i < arm.count(); ++i) {
-    if ((target.held >> static_cast<unsigned>(i) & 1U) != 0) {
+    if (holds(target.held, i)) {
       const double at = target.joints[i];
       out += " AXIS " + std::to_string(i + 1) + ' ' + decimal_text(arm.axis(i).slides() ? at * 1000 : degrees(at));
     }

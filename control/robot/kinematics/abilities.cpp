@@ -85,7 +85,7 @@ std::string left_open(const Arm& arm) {
     if (arm.moves_workpiece(i)) {
       text += "; axis " + std::to_string(i + 1) + " (" + arm.axis(i).name + ") moves the workpiece: AXIS " +
               std::to_string(i + 1) + " says where it stands";
-    } else if ((held >> static_cast<unsigned>(i) & 1U) != 0) {
+    } else if (holds(held, i)) {
       text += "; a pose leaves axis " + std::to_string(i + 1) + " (" + arm.axis(i).name + ") open: AXIS " +
               std::to_string(i + 1) + " says where it stands";
     }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "control/robot/kinematics/held_axes.h"
+
 namespace indurop::robot {
 
 Mat3 turned(const Vec3& axis, double angle) noexcept {
@@ -154,13 +156,21 @@ Jacobian Arm::jacobian(const Joints& q, Pose& tool) const noexcept {
   return j;
 }
 
+// More than six axes: only those count that follow the tool on a path; its command says where the others are.
 double Arm::volume(const Joints& q) const noexcept {
   const Jacobian j = jacobian(q);
   if (count_ == 6) {
     return j.leftCols<6>().determinant();
   }
   if (count_ > 6) {
-    return std::sqrt(std::max(0.0, (j * j.transpose()).determinant()));
+    const Held held = redundant_axes(*this);
+    Eigen::Matrix<double, 6, 6> following;
+    for (int i = 0, column = 0; i < count_ && column < 6; ++i) {
+      if (!holds(held, i)) {
+        following.col(column++) = j.col(i);
+      }
+    }
+    return following.determinant();
   }
   Eigen::Matrix<double, kAxes, kAxes> normal = j.transpose() * j;
   normal.diagonal().tail(kAxes - count_).setOnes();

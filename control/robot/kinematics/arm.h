@@ -109,7 +109,8 @@ class Arm {
   }
   // Also returns the pose of the tool.
   [[nodiscard]] Jacobian jacobian(const Joints& q, Pose& tool) const noexcept;
-  // Returns 0 in singular positions; with six axes the sign changes on passing through them.
+  // Returns 0 in singular positions, where the axes that are not redundant_axes() cannot lead the tool in some
+  // direction; with six axes or more the sign changes on passing through them.
   [[nodiscard]] double volume(const Joints& q) const noexcept;
   // Returns the first axis beyond its limits by more than `slack`, from 0; -1 if none. NaN and infinite values count as
   // beyond.

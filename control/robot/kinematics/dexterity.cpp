@@ -5,13 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/robot/kinematics/held_axes.h"
+
 namespace indurop::robot {
 
 double slowest_direction(const Arm& arm, const Joints& q, double lever) noexcept {
   Jacobian rates = arm.jacobian(q);
   rates.bottomRows<3>() *= lever;
-  for (int i = arm.count(); i < kAxes; ++i) {
-    rates.col(i).setZero();
+  const Held held = redundant_axes(arm);
+  for (int i = 0; i < kAxes; ++i) {
+    if (i >= arm.count() || holds(held, i)) {
+      rates.col(i).setZero();
+    }
   }
   // Squares of the singular values.
   const Eigen::Matrix<double, 6, 6> squares = rates * rates.transpose();

@@ -40,7 +40,7 @@ Joints shortened(const Joints& change) noexcept {
 Jacobian moving(const Arm& arm, const Joints& q, Held held) noexcept {
   Jacobian j = arm.jacobian(q);
   for (int i = 0; i < arm.count(); ++i) {
-    if ((held >> static_cast<unsigned>(i) & 1U) != 0) {
+    if (holds(held, i)) {
       j.col(i).setZero();
     }
   }
@@ -245,41 +245,6 @@ double missed(const Arm& arm, const Pose& pose, const Search& how, Joints& q) no
 
 }  // namespace
 
-Held workpiece_axes(const Arm& arm) noexcept {
-  Held held = 0;
-  for (int i = 0; i < arm.count(); ++i) {
-    held |= arm.moves_workpiece(i) ? 1U << static_cast<unsigned>(i) : 0U;
-  }
-  return held;
-}
-
-Held redundant_axes(const Arm& arm) noexcept {
-  Held held = workpiece_axes(arm);
-  const int count = arm.count() - arm.world_joint();
-  int more = count - 6;
-  for (int i = 0; i < count && more > 0; ++i) {
-    if (arm.axis(i).slides()) {
-      held |= 1U << static_cast<unsigned>(i);
-      --more;
-    }
-  }
-  for (int i = 0, turning = 0; i < count && more > 0; ++i) {
-    turning += arm.axis(i).slides() ? 0 : 1;
-    if (!arm.axis(i).slides() && turning >= 3) {
-      held |= 1U << static_cast<unsigned>(i);
-      --more;
-    }
-  }
-  return held;
-}
-
-Joints with_axes(Held axes, const Joints& from, Joints near) noexcept {
-  for (int i = 0; i < kAxes; ++i) {
-    near[i] = (axes >> static_cast<unsigned>(i) & 1U) != 0 ? from[i] : near[i];
-  }
-  return near;
-}
-
 NumericSolution solve_numerically(const Arm& arm, const Pose& pose, const Joints& near) noexcept {
   Joints q = near;
   double error = 0;
@@ -333,7 +298,7 @@ Solutions search_numerically(const Arm& arm, const std::optional<Postures>& post
   for (int i = 0; i < how.least || (found.count == 0 && i < how.most); ++i) {
     Joints q = i == 0 ? near : arm.spread(i);
     for (int a = 0; a < arm.count(); ++a) {
-      q[a] = (how.held >> static_cast<unsigned>(a) & 1U) != 0 ? near[a] : q[a];
+      q[a] = holds(how.held, a) ? near[a] : q[a];
     }
     // An iteration that leaves the limits often returns into them a turn later, and one along a limit may lead round
     // it.

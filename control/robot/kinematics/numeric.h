@@ -5,19 +5,10 @@
 
 #pragma once
 
+#include "control/robot/kinematics/held_axes.h"
 #include "control/robot/kinematics/postures.h"
 
 namespace indurop::robot {
-
-// Set of axes, one bit each.
-using Held = unsigned;
-// The axes that move the workpiece.
-Held workpiece_axes(const Arm& arm) noexcept;
-// The redundant axes of an arm with more than six: those of the workpiece, those that slide, else the third, whose
-// angle determines where the elbow is.
-Held redundant_axes(const Arm& arm) noexcept;
-// Returns `near` with these axes as in `from`. Real-time safe.
-Joints with_axes(Held axes, const Joints& from, Joints near) noexcept;
 
 // Turning axes stay this far from their limits where the elbow can move, rad.
 inline constexpr double kElbowRoom = 0.1;

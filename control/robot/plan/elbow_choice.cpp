@@ -25,8 +25,7 @@ void ElbowChoice::begin() noexcept {
   }
   axis_ = -1;
   for (int i = 0; i < places_.arm().count(); ++i) {
-    const bool turns = (held >> static_cast<unsigned>(i) & 1U) != 0 && !places_.arm().axis(i).slides() &&
-                       !places_.arm().moves_workpiece(i);
+    const bool turns = holds(held, i) && !places_.arm().axis(i).slides() && !places_.arm().moves_workpiece(i);
     axis_ = turns && axis_ < 0 ? i : axis_;
   }
   if (axis_ < 0) {

@@ -84,14 +84,18 @@ class Refusal : public testing::TestWithParam<const char*> {
     Joints from;
     return next(static_cast<int>(seed % 420), command, from) ? std::optional(plan(command, from)) : std::nullopt;
   }
+  // The place of the planned motion on its path at this time.
+  [[nodiscard]] double place_at(double time) const {
+    const Segment& s = planner->segment();
+    return s.timing.known() ? s.timing.at(time).place
+                            : Profile::to_position({}, s.length, 0, s.limits).at(time).position;
+  }
   // The greatest part of the joints' limits that it uses, by differences of four instants in many stretches.
   double used() {
     constexpr double kInstant = 0.001;
     constexpr int kStretches = 400;
     const Segment& s = planner->segment();
-    const Profile line = Profile::to_position({}, s.length, 0, s.limits);
-    const double duration = s.timing.known() ? s.timing.duration() : line.duration();
-    const auto place_at = [&](double t) { return s.timing.known() ? s.timing.at(t).place : line.at(t).position; };
+    const double duration = s.duration();
     double most = 0;
     Joints q = s.from;
     for (int i = 0; i < kStretches; ++i) {
@@ -155,6 +159,92 @@ TEST_P(Refusal, Takes_no_more_than_its_work) {
 INSTANTIATE_TEST_SUITE_P(Of_all_kinds, Refusal,
                          testing::Values("cell", "ur5", "scara", "offset_wrist", "five_axis", "palletiser", "iiwa14",
                                          "rail", "tilt_table", "irb4600", "scara_spec", "xarm6", "panda"));
+
+class RefusalOfHeldAxes : public Refusal {
+ protected:
+  // A line of 50 s through the middle, if it can be reached.
+  std::optional<Fault> plan_slow_line(const Joints& middle) {
+    const Pose there = arm.forward(middle);
+    const Vec3 half = in(0.02, 0.06) * Vec3(in(-1, 1), in(-1, 1), in(-1, 1)).normalized();
+    const auto start = inverse.nearest({there.position - half, there.orientation}, middle);
+    MoveCommand command;
+    command.move = Move::Line;
+    command.target.is_pose = true;
+    command.target.pose = {there.position + half, there.orientation};
+    command.tool_speed = half.norm() / 25;
+    return start.reach == Reach::Ok ? std::optional(plan(command, start.solution.q)) : std::nullopt;
+  }
+  // The same as used(), of jerks alone, at all instants around the one in the middle.
+  double used_in_middle() {
+    constexpr double kInstant = 0.001;
+    constexpr int kAround = 20;
+    constexpr int kPlaces = 2000;  // on the way there
+    const Segment& s = planner->segment();
+    double time = 0;
+    for (double width = s.duration() / 2; width > 1e-9; width /= 2) {
+      time += place_at(time + width) <= s.length / 2 ? width : 0;
+    }
+    std::array<Joints, 2 * kAround + 1> seen;
+    Joints q = s.from;
+    const double first = place_at(time - kAround * kInstant);
+    for (int i = 1; i < kPlaces; ++i) {
+      places.on(s, first * i / kPlaces, q, q);
+    }
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const double place = place_at(time + (static_cast<int>(i) - kAround) * kInstant);
+      if (places.on(s, place, q, q) != Reach::Ok) {
+        return HUGE_VAL;
+      }
+      seen[i] = q;
+    }
+    double most = 0;
+    for (std::size_t i = 3; i < seen.size(); ++i) {
+      const Joints third = seen[i] - 3 * seen[i - 1] + 3 * seen[i - 2] - seen[i - 3];
+      const double rounding = 8 * 5e-11;
+      for (int k = 0; k < arm.count(); ++k) {
+        most = std::max(most, (std::abs(third[k]) - rounding) / std::pow(kInstant, 3) / limits.jerk[k]);
+      }
+    }
+    return most;
+  }
+};
+
+// A table, a rail or an elbow could keep the tool on its line where the wrist is straight, but its place is given: that
+// the position is singular was overlooked, and a long motion was not rehearsed there.
+TEST_P(RefusalOfHeldAxes, Comes_where_the_others_are_singular) {
+  const int wrist = arm.count() - arm.world_joint() - 2;
+  int planned = 0;
+  int singular = 0;
+  random.seed(5);
+  for (int i = 0; i < 60; ++i) {
+    Joints middle = anywhere(arm, random, 0.3);
+    middle[wrist] = i % 3 == 0 ? decades(1e-3, 0.5) : decades(1e-9, 1e-6);
+    const std::optional<Fault> fault = plan_slow_line(middle);
+    singular += fault && fault->code == ErrorCode::Singular ? 1 : 0;
+    if (fault && fault->ok()) {
+      ++planned;
+      EXPECT_LE(used_in_middle(), 1.001) << "line " << i << ", " << middle[wrist] << " rad";
+    }
+  }
+  EXPECT_GE(singular, 3);
+  EXPECT_GE(planned, 3);
+  fmt::print("{}: {} planned, {} past a singular position\n", GetParam(), planned, singular);
+}
+
+INSTANTIATE_TEST_SUITE_P(On_slow_lines, RefusalOfHeldAxes,
+                         testing::Values("tilt_table", "turntable", "iiwa14", "rail"));
+
+class RefusalOfTables : public Refusal {};
+
+// The random line that showed it: axis 5 is at 6e-8 rad in its middle, and axes 4 and 6 stepped by 4 mrad.
+TEST_P(RefusalOfTables, Is_that_of_a_singular_position) {
+  const std::optional<Fault> fault = plan_random(330);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->code, ErrorCode::Singular) << to_string(fault->code);
+  EXPECT_LT(planner->work(), 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Next_to_the_straight_wrist, RefusalOfTables, testing::Values("tilt_table"));
 
 class RefusalOfStretchedArms : public Refusal {};
 
