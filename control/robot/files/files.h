@@ -23,6 +23,8 @@ struct FileNames {
   std::vector<double> rotor_inertia{};
   std::optional<bool> shares{};  // whether there are Settings::other_robots; nullopt: it is not known
   double tool_turn_speed = 180;  // deg/s, as in Settings
+  // As in Settings; without them, an endless axis may be anywhere.
+  std::vector<double> counts_per_turn{}, gear{}, zero{};
 };
 
 FileNames names_of(const Settings& settings);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -129,7 +130,7 @@ Diagnostics check_speeds(const JobBook& book, double most) {
         std::ostringstream text;
         text << "SPEED " << asked << " mm/s is beyond full speed, " << most
              << " mm/s (property tool_speed): lines run at that";
-        warnings.push_back(error(job.file, {static_cast<int>(step.line), 1}, text.str()));
+        warnings.push_back(error(job.file, {static_cast<int>(step.line), static_cast<int>(step.column)}, text.str()));
         warnings.back().severity = base::Diagnostic::Severity::Warning;
       }
     };
@@ -185,12 +186,32 @@ ArmShape shape_of(const Arm& arm) {
   return shape;
 }
 
+namespace {
+
+// An endless axis ends where its drive cannot count any further: there the set points would stand still.
+void bound_endless(const FileNames& names, Arm& arm) {
+  constexpr double kMostCounts = std::numeric_limits<std::int32_t>::max();
+  for (int i = 0; i < arm.count(); ++i) {
+    const auto own = [i](const std::vector<double>& values, double otherwise) {
+      const std::size_t k = values.size() > 1 ? at(i) : 0;
+      return k < values.size() ? values[k] : otherwise;
+    };
+    const double counts = std::abs(own(names.counts_per_turn, 0)) * std::max(1.0, std::abs(own(names.gear, 1)));
+    if (arm.axis(i).endless && counts > 0) {
+      arm.end_at(i, std::max(0.0, 2 * kPi * kMostCounts / counts - std::abs(radians(own(names.zero, 0)))));
+    }
+  }
+}
+
+}  // namespace
+
 ReadFiles read_files(const FileNames& names) {
   ReadFiles read;
   if (auto text = text_of(names.urdf, "robot description (property urdf)"); !text) {
     read.errors.push_back(std::move(text).error());
   } else if (auto arm = arm_from_urdf(names.urdf, *text)) {
     read.model = std::move(arm).value();
+    bound_endless(names, read.model->arm);
     read.notes = read.model->notes;
     read.urdf = std::move(*text);
   } else {
@@ -244,7 +265,10 @@ FileNames names_of(const Settings& settings) {
           settings.ignore_collisions,
           {},
           !settings.other_robots.empty(),
-          settings.tool_turn_speed};
+          settings.tool_turn_speed,
+          settings.counts_per_turn,
+          settings.gear,
+          settings.zero};
 }
 
 Findings check_module(FileNames names, const PropertyText& property) {

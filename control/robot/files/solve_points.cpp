@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iomanip>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -49,55 +50,77 @@ std::string nearest_turn(const Arm& arm, const Inverse& inverse, const Pose& pos
   return text.str();
 }
 
+// Returns "200 degrees" or "35 mm".
+std::string with_unit(const Axis& axis, double value) {
+  std::ostringstream text;
+  text << (axis.slides() ? 1000 * value : degrees(value)) << (axis.slides() ? " mm" : " degrees");
+  return text.str();
+}
+
+// Returns " with AXIS 7 at 90 degrees": a pose may be in reach only where these axes are elsewhere.
+std::string where_held(const Arm& arm, const Target& target) {
+  std::string text;
+  for (int i = 0; i < arm.count(); ++i) {
+    const std::string axis = "AXIS " + std::to_string(i + 1);
+    if (holds(target.held, i)) {
+      text += (text.empty() ? " with " : " and ") + axis + " at " + with_unit(arm.axis(i), target.joints[i]);
+    } else if (arm.moves_workpiece(i)) {
+      text += (text.empty() ? " with " : " and ") + axis + " anywhere";
+    }
+  }
+  return text;
+}
+
 std::string out_of_reach(const Arm& arm, const Inverse& inverse, const Target& target, Reach reach) {
   const std::string turn = arm.count() < 6 ? nearest_turn(arm, inverse, target.pose) : "";
   if (!turn.empty()) {
     return "an arm of " + std::to_string(arm.count()) + " axes cannot hold its tool like that there; the nearest is " +
            turn;
   }
-  return std::string("the arm cannot hold its tool like that there") +
+  return "the arm cannot hold its tool like that there" + where_held(arm, target) +
          (reach == Reach::JointLimit ? " within the limits of its joints" : "") +
          "; give it a nearer position or another orientation";
-}
-
-// A point or a motion may give the value of an axis only if a pose leaves that axis undetermined.
-std::string wrong_axis(const Arm& arm, Held held) {
-  const Held more = held & ~redundant_axes(arm);
-  for (unsigned i = 0; i < kAxes; ++i) {
-    if ((more >> i & 1U) != 0) {
-      return "AXIS " + std::to_string(i + 1) + " follows from the pose; leave it out, or use JOINT";
-    }
-  }
-  return "";
 }
 
 // Returns "is at 200 degrees, its limits are -170 to 170".
 std::string value_and_limits(const Axis& axis, double value) {
   const double unit = axis.slides() ? 0.001 : kPi / 180;
   std::ostringstream text;
-  text << "is at " << value / unit << (axis.slides() ? " mm" : " degrees") << ", its limits are " << axis.lower / unit
-       << " to " << axis.upper / unit;
+  text << "is at " << with_unit(axis, value);
+  if (axis.endless) {
+    text << "; its drive counts from " << -axis.farthest / unit << " to " << axis.farthest / unit
+         << " (counts_per_turn)";
+  } else {
+    text << ", its limits are " << axis.lower / unit << " to " << axis.upper / unit;
+  }
   return text.str();
 }
 
-std::string beyond_axis(const Arm& arm, int axis, double value) {
+// Returns what is wrong with AXIS of a point or a motion, which may give the value only of an axis that a pose leaves
+// undetermined; nothing if it is good, or `value` is not known.
+std::string wrong_axis(const Arm& arm, int axis, std::optional<double> value) {
+  const std::string name = "AXIS " + std::to_string(axis + 1) + " ";
+  if (!holds(redundant_axes(arm), axis)) {
+    return name + "follows from the pose; leave it out, or use JOINT";
+  }
   const Axis& a = arm.axis(axis);
-  const bool beyond = !a.endless && !(value >= a.lower && value <= a.upper);
-  return beyond ? "AXIS " + std::to_string(axis + 1) + " " + value_and_limits(a, value) : "";
+  const bool beyond =
+      value && (a.endless ? !(std::abs(*value) <= a.farthest) : !(*value >= a.lower && *value <= a.upper));
+  return beyond ? name + value_and_limits(a, *value) : "";
 }
 
-// Returns what is wrong with AXIS of a point.
-std::string wrong_axes(const Arm& arm, const Target& target) {
-  if (std::string text = wrong_axis(arm, target.held); !text.empty()) {
-    return text;
-  }
+// Adds what is wrong with AXIS of a point. Returns whether it is good.
+bool check_axes(const Point& point, const Arm& arm, Diagnostics& errors) {
   for (int i = 0; i < arm.count(); ++i) {
-    const bool given = (target.held >> static_cast<unsigned>(i) & 1U) != 0;
-    if (std::string text = given ? beyond_axis(arm, i, target.joints[i]) : ""; !text.empty()) {
-      return text;
+    const std::string wrong = holds(point.target.held, i) ? wrong_axis(arm, i, point.target.joints[i]) : "";
+    if (!wrong.empty()) {
+      const base::SourcePlace word{point.place.line, point.axis_columns[at(i)]};
+      errors.push_back(
+          point_error(point.file, word.column > 0 ? word : point.place, "point '" + point.name + "': " + wrong));
+      return false;
     }
   }
-  return "";
+  return true;
 }
 
 std::string wrong_pose(const Arm& arm, const Inverse& inverse, const Target& target, const Solutions& found) {
@@ -145,8 +168,7 @@ Diagnostics solve_points(JobBook& book, const Arm& arm, bool placed) {
     if (!target.is_pose || !is_known(point, book, placed)) {
       continue;
     }
-    if (const std::string text = wrong_axes(arm, target); !text.empty()) {
-      errors.push_back(point_error(point.file, point.place, "point '" + point.name + "': " + text));
+    if (!check_axes(point, arm, errors)) {
       continue;
     }
     const bool open = tools.inverse(0).leaves_workpiece_open(target.held);
@@ -188,12 +210,10 @@ Diagnostics check_axes_of_motions(const JobBook& book, const Arm& arm) {
         if (each.op != Op::Axis) {
           continue;
         }
-        std::string wrong = wrong_axis(arm, 1U << static_cast<unsigned>(each.index));
-        if (wrong.empty() && each.formula < 0) {
-          wrong = beyond_axis(arm, each.index, each.value);
-        }
+        const std::string wrong =
+            wrong_axis(arm, each.index, each.formula < 0 ? std::optional(each.value) : std::nullopt);
         if (!wrong.empty()) {
-          errors.push_back(point_error(job.file, {static_cast<int>(each.line), 1}, wrong));
+          errors.push_back(point_error(job.file, {static_cast<int>(each.line), static_cast<int>(each.column)}, wrong));
         }
       }
     }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fault in words; for a collision also the pair of bodies and the place on the path.
+// A fault in words; for a collision also the pair of bodies and the place on the path, for a drive its axis.
 
 #pragma once
 
 #include <cstdio>
+#include <cstring>
 
 #include "control/robot/collision/clearance.h"
+#include "control/robot/kinematics/arm.h"
 #include "control/robot/kinematics/errors.h"
 
 namespace indurop::robot {
@@ -32,6 +34,29 @@ inline void describe(const Fault& fault, const Clearance& clearance, FaultText& 
     std::snprintf(to, sizeof to, "%.*s would touch", kMostOfPair, pair);
   } else {
     std::snprintf(to, sizeof to, "%.*s would touch, after %.0f %% of the way", kMostOfPair, pair, 100 * fault.part);
+  }
+}
+
+// "axis 7 (turn): a drive reports a fault", if the fault has an axis.
+inline void name_axis(const Fault& fault, const Arm& arm, FaultText& to) noexcept {
+  if (fault.axis < 1 || fault.axis > arm.count()) {
+    std::snprintf(to, sizeof to, "%s", to_string(fault.code));
+    return;
+  }
+  std::snprintf(to, sizeof to, "axis %d (%.24s): %s", fault.axis, arm.axis(fault.axis - 1).name.c_str(),
+                to_string(fault.code));
+}
+
+// Adds "; axis 7 ends at 90 degrees" for each axis that moves the workpiece: the pose of a motion that is out of reach
+// may be in reach where they are elsewhere. `end`: the joints at the end of the motion.
+inline void add_workpiece(const Arm& arm, const Joints& end, FaultText& to) noexcept {
+  for (int i = 0; i < arm.count(); ++i) {
+    if (arm.moves_workpiece(i)) {
+      const bool slides = arm.axis(i).slides();
+      const std::size_t length = std::strlen(to);
+      std::snprintf(to + length, sizeof to - length, "; axis %d ends at %.5g %s", i + 1,
+                    slides ? 1000 * end[i] : degrees(end[i]), slides ? "mm" : "degrees");
+    }
   }
 }
 

@@ -150,6 +150,14 @@ void Group::motion_failed(const Fault& fault, int source, std::uint32_t ticket) 
   if (fault.code == ErrorCode::OtherRobot) {
     std::snprintf(why, sizeof why, "%s", space_.text());
   }
+  if (fault.code == ErrorCode::Unreachable || fault.code == ErrorCode::JointLimit) {
+    const PlanRequest& asked = plans_.request();
+    const Target& target = asked.command.target;
+    const Joints end = asked.chain != nullptr ? asked.from
+                       : target.is_pose       ? with_axes(target.held, target.joints, asked.from)
+                                              : target.joints;
+    add_workpiece(robot_.tool.arm(), end, why);
+  }
   if (source < 0) {
     queue_.fail(source, fault.code);
     job.set_message(why);

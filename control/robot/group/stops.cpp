@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "control/robot/group/fault_text.h"
+
 namespace indurop::robot {
 
 namespace {
@@ -33,7 +35,9 @@ bool is_foreseen(ErrorCode code) noexcept {
 void Stops::trip(ErrorCode code, int axis, double hardness, const char* why) noexcept {
   const Settings& settings = robot_.parts.settings;
   group_.set_job_aside();
-  robot_.job.fail({code, axis}, why != nullptr ? why : to_string(code), std::max(robot_.follower.source(), 0));
+  FaultText text;
+  name_axis({code, axis}, robot_.parts.arm, text);
+  robot_.job.fail({code, axis}, why != nullptr ? why : text, std::max(robot_.follower.source(), 0));
   group_.finish_service(Fault{code, axis});
   group_.drop_motions(code);
   group_.forget_plans();

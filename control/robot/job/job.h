@@ -66,6 +66,7 @@ struct Step {
   Op op = Op::Move;
   Move move = Move::Joint;
   std::uint32_t line = 0;
+  std::uint32_t column = 1;  // of a setting in the line of a motion
   int index = -1;
   int mid = -1;
   int formula = -1;
@@ -150,6 +151,7 @@ struct Point {
   int computed = -1;             // computed place of the book; -1: no job computes it
   // Solutions for each tool, if the point is a pose whose solutions have to be searched for; the book owns them.
   std::vector<const Solutions*> known{};
+  std::array<int, kAxes> axis_columns{};  // of the words AXIS in its line; 0: it has none
 };
 
 // The position of a workpiece, a pallet or a camera: given by its pose, taught by three points, or found from points

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "control/robot/job/axis_word.h"
 #include "control/robot/path/spline.h"
 
 namespace indurop::robot {
@@ -71,6 +72,7 @@ void MotionReader::extras(std::size_t first_step) {
   for (bool more = true; more && !line_.failed();) {
     setting = {};
     setting.line = draft_.last().line;
+    setting.column = static_cast<std::uint32_t>(line_.place(line_.peek()).column);
     more = true;
     if (line_.accept("SPEED")) {
       more = read_speed(setting);
@@ -79,7 +81,7 @@ void MotionReader::extras(std::size_t first_step) {
     } else if (line_.accept("ACC")) {
       more = read_acceleration(setting);
     } else if (line_.accept("AXIS")) {
-      more = read_axis(setting);
+      more = read_axis(extras, setting);
     } else if (line_.accept("UNTIL")) {
       until(extras);
       continue;
@@ -276,20 +278,21 @@ bool MotionReader::read_zone(Step& step) {
 }
 
 // Parses "3 20" of an axis that a pose leaves undetermined.
-bool MotionReader::read_axis(Step& step) {
+bool MotionReader::read_axis(const MotionExtras& extras, Step& step) {
   step.op = Op::Axis;
   if (const Move move = draft_.last().move; move == Move::Spline || move == Move::Free) {
     line_.error(line_.before(),
                 "AXIS comes after the points of a MOVJ, MOVL, MOVC or SEARCH; for others, it is part of a POINT");
     return false;
   }
-  double axis = 0;
-  if (!(line_.numbers(1, &axis, "the number of an axis") && axis >= 1 && axis <= shape_.axes &&
-        axis == std::floor(axis))) {
-    line_.error(line_.before(), "axes have the numbers 1 to " + std::to_string(shape_.axes));
+  Held given = 0;
+  for (const Step& each : extras.settings) {
+    given |= each.op == Op::Axis ? 1U << static_cast<unsigned>(each.index) : 0U;
+  }
+  step.index = axis_number(line_, shape_, given);
+  if (step.index < 0) {
     return false;
   }
-  step.index = static_cast<int>(axis) - 1;
   if (!amount(step, "where the axis is to stand, AXIS 3 20")) {
     return false;
   }

@@ -27,7 +27,7 @@ class MotionReader {
   bool read_speed(Step& step);
   bool read_zone(Step& step);
   bool read_acceleration(Step& step);
-  bool read_axis(Step& step);
+  bool read_axis(const MotionExtras& extras, Step& step);
   void add(const Step& setting);
   bool amount(Step& step, const char* what);
   bool in_range(const Step& step, double low, double high, const JobToken& at, const char* wrong);

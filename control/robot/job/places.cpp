@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "control/robot/job/axis_word.h"
+
 namespace indurop::robot {
 
 void PlaceReader::point() {
@@ -32,6 +34,7 @@ void PlaceReader::point() {
   }
   if (fresh && !line_.failed()) {
     draft_.book().points.push_back({text, target, line_.file(), line_.place(name), -1, Quat::Identity(), {}});
+    draft_.book().points.back().axis_columns = axis_columns_;
   } else {
     names_.drop_frame_of(draft_.book().points.size());
   }
@@ -51,6 +54,7 @@ void PlaceReader::joint_point(Target& target) {
 
 void PlaceReader::pose_point(Target& target) {
   target.is_pose = true;
+  axis_columns_ = {};
   if (!line_.pose(target.pose)) {
     return;
   }
@@ -83,17 +87,13 @@ void PlaceReader::posture(Target& target) {
 
 // Parses the axis that a pose leaves undetermined on arms with more than six axes.
 void PlaceReader::held_axis(Target& target) {
-  double axis = 0;
+  const int column = line_.place(line_.before()).column;
+  const int axis = axis_number(line_, shape_, target.held);
   double value = 0;
-  if (!(line_.numbers(1, &axis, "the number of an axis") && axis >= 1 && axis <= shape_.axes &&
-        axis == std::floor(axis))) {
-    line_.error(line_.before(), "axes have the numbers 1 to " + std::to_string(shape_.axes));
-    return;
-  }
-  const int index = static_cast<int>(axis) - 1;
-  if (line_.numbers(1, &value, "where the axis is to stand")) {
-    target.joints[index] = axis_value(index, value);
-    target.held |= 1U << static_cast<unsigned>(index);
+  if (axis >= 0 && line_.numbers(1, &value, "where the axis is to stand")) {
+    target.joints[axis] = axis_value(axis, value);
+    target.held |= 1U << static_cast<unsigned>(axis);
+    axis_columns_[at(axis)] = column;
   }
 }
 

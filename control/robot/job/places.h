@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <set>
@@ -35,6 +36,7 @@ class PlaceReader {
   const ArmShape shape_;
   std::map<std::string, std::string, std::less<>> point_places_;  // file and line, by name
   std::set<std::string> frames_;                                  // names
+  std::array<int, kAxes> axis_columns_{};                         // Point::axis_columns of the point that is read
 };
 
 }  // namespace indurop::robot

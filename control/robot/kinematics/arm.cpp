@@ -181,7 +181,7 @@ int Arm::goes_beyond(const Joints& from, const Joints& to, double slack) const n
   for (int i = 0; i < count_; ++i) {
     const Axis& a = axis(i);
     const bool inside =
-        a.endless ? std::isfinite(to[i])
+        a.endless ? std::isfinite(to[i]) && std::abs(to[i]) <= std::max(a.farthest, std::abs(from[i]))
                   : to[i] >= std::min(a.lower, from[i]) - slack && to[i] <= std::max(a.upper, from[i]) + slack;
     if (!inside) {
       return i;

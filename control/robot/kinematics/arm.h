@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ struct Axis {
   double upper = kPi;
   bool endless = false;  // turns without end; lower and upper are ignored
   AxisKind kind = AxisKind::Turning;
+  double farthest = HUGE_VAL;  // rad from 0 that the drive of an endless axis counts, in each direction
   [[nodiscard]] bool slides() const noexcept { return kind == AxisKind::Sliding; }
 };
 
@@ -88,6 +90,8 @@ class Arm {
   [[nodiscard]] int world_joint() const noexcept { return world_joint_; }
   // Returns whether this axis moves the workpiece, not the arm. They are the last axes.
   [[nodiscard]] bool moves_workpiece(int axis) const noexcept { return axis >= count_ - world_joint_; }
+  // Sets Axis::farthest of an endless axis.
+  void end_at(int axis, double farthest) noexcept { axes_[static_cast<std::size_t>(axis)].farthest = farthest; }
   // Returns the same arm without the axes of the workpiece. Its base's frame stands still where the workpiece is with
   // these axes at zero.
   [[nodiscard]] Arm in_world() const noexcept;
@@ -113,7 +117,7 @@ class Arm {
   // direction; with six axes or more the sign changes on passing through them.
   [[nodiscard]] double volume(const Joints& q) const noexcept;
   // Returns the first axis beyond its limits by more than `slack`, from 0; -1 if none. NaN and infinite values count as
-  // beyond.
+  // beyond, and so do angles of endless axes beyond Axis::farthest.
   [[nodiscard]] int beyond_limits(const Joints& q, double slack = 1e-9) const noexcept;
   // As beyond_limits(), but an axis that is already beyond its limits at `from` counts only if it goes further: it may
   // come back.

@@ -12,7 +12,7 @@ namespace indurop::robot {
 namespace {
 
 constexpr double kSlowestMotion = 1e-9;  // m/s, and parts of full speed: below it counts as no motion
-constexpr double kSamePlace = 1e-6;      // rad
+constexpr double kSamePlace = 1e-6;      // rad or m
 constexpr double kCornerFactor = 4;      // how much faster the speed along a corner may change than on a straight piece
 
 bool finite(const Target& target) noexcept {
@@ -126,7 +126,7 @@ Fault aim_elbow(const Places& places, const Target& target, Draft& draft) noexce
   draft.elbow_given = held != 0;
   s.elbow = s.from;
   for (int i = 0; i < places.arm().count() && held != 0; ++i) {
-    if ((held >> static_cast<unsigned>(i) & 1U) != 0) {
+    if (holds(held, i)) {
       s.elbow[i] = target.joints[i];
       s.elbow_moves = s.elbow_moves || s.elbow[i] != s.from[i];
     }
@@ -135,7 +135,21 @@ Fault aim_elbow(const Places& places, const Target& target, Draft& draft) noexce
   return {beyond < 0 ? ErrorCode::Ok : ErrorCode::JointLimit, beyond + 1};
 }
 
-void measure_tool_motion(const MoveCommand& command, Draft& draft) noexcept {
+// m of the tool's tip in the world per part of a motion that keeps its place on the workpiece, while that turns.
+double farthest_in_world(const Arm& arm, const Segment& s) noexcept {
+  constexpr int kPlaces = 64;
+  double farthest = 0;
+  Vec3 last = Vec3::Zero();
+  for (int i = 0; i <= kPlaces; ++i) {
+    const ChainFrame world = arm.world(s.from + (s.elbow - s.from) * i / kPlaces);
+    const Vec3 here = world.turn.transpose() * (s.start.position - world.shift);
+    farthest = i == 0 ? 0 : std::max(farthest, (here - last).norm());
+    last = here;
+  }
+  return kPlaces * farthest;
+}
+
+void measure_tool_motion(const Arm& arm, const MoveCommand& command, Draft& draft) noexcept {
   Segment& s = draft.segment;
   const ToolLimits& tool = draft.tool;
   s.turn = rotation_between(s.start.orientation, s.end.orientation);
@@ -154,7 +168,8 @@ void measure_tool_motion(const MoveCommand& command, Draft& draft) noexcept {
   const double turning = angle / s.length;
   s.limits.velocity = command.speed;
   if (command.tool_speed > 0) {
-    s.limits.velocity = std::min(1.0, shared(command.tool_speed, pace));
+    const bool rests = s.elbow_moves && s.way < kSamePlace;
+    s.limits.velocity = std::min(1.0, shared(command.tool_speed, rests ? farthest_in_world(arm, s) / s.length : pace));
   }
   double acceleration = tool.acceleration;
   if (s.move == Move::Circle) {
@@ -260,7 +275,7 @@ Fault make_path(const Places& places, const MoveCommand& command, Draft& draft) 
   if (const Fault fault = aim_elbow(places, command.target, draft); !fault.ok()) {
     return fault;
   }
-  measure_tool_motion(command, draft);
+  measure_tool_motion(places.arm(), command, draft);
   return {};
 }
 

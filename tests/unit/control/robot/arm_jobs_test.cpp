@@ -120,12 +120,12 @@ TEST(ArmJobs, What_an_arm_cannot_do_is_said_with_the_line) {
   EXPECT_EQ(error_of("scara", "POINT A = POSE 400 200 250 RPY 180 0 30 POSTURE 2\n"),
             "main.job:1:7: error: point 'A': this arm has no postures; leave POSTURE out, or use JOINT");
   EXPECT_EQ(error_of("iiwa14", "POINT A = POSE 500 100 600 RPY 180 0 180 AXIS 2 20\n"),
-            "main.job:1:7: error: point 'A': AXIS 2 follows from the pose; leave it out, or use JOINT");
+            "main.job:1:42: error: point 'A': AXIS 2 follows from the pose; leave it out, or use JOINT");
   const std::string b = "POINT B = POSE 500 -100 600 RPY 180 0 180\n";
   EXPECT_EQ(error_of("iiwa14", b + "MOVL B AXIS 2 20\n"),
-            "main.job:2:1: error: AXIS 2 follows from the pose; leave it out, or use JOINT");
+            "main.job:2:8: error: AXIS 2 follows from the pose; leave it out, or use JOINT");
   EXPECT_EQ(error_of("iiwa14", b + "MOVL B AXIS 3 200\n"),
-            "main.job:2:1: error: AXIS 3 is at 200 degrees, its limits are -170 to 170");
+            "main.job:2:8: error: AXIS 3 is at 200 degrees, its limits are -170 to 170");
   EXPECT_EQ(error_of("iiwa14", b + "MOVL B AXIS 8 20\n"), "main.job:2:13: error: axes have the numbers 1 to 7");
   EXPECT_EQ(
       error_of("iiwa14", b + "MOVE FREE TO B AXIS 3 20\n"),

@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <vector>
 
+#include "control/robot/files/read_files.h"
+#include "control/robot/files/solve_points.h"
 #include "group_cell.h"
 
 namespace indurop::robot {
@@ -24,20 +28,28 @@ class Workpiece : public testing::Test {
  protected:
   const Arm arm = arm_of("turntable");
   std::unique_ptr<Cell> cell;
-  std::string text;            // of the URDF
-  double least = 0, most = 0;  // deg, of the table while the job ran
+  std::string text;                // of the URDF
+  double least = 0, most = 0;      // deg, of the table while the job ran
+  double fastest_turn = 0;         // deg/s, of the table
+  std::vector<Joints> set_points;  // of each period
 
   Workpiece() : text(urdf_of("turntable")) {}
 
-  void run(const std::string& job, JobState end = JobState::Ended) {
+  void begin(const std::string& job) {
     cell = std::make_unique<Cell>(kTurntableJob + job, 4, 0, true, Settings{}, text);
     ASSERT_TRUE(cell->serve(Service::GroupEnable));
     cell->in.service.job = 1;
     cell->ask(Service::JobStart);
-    least = most = 0;
+  }
+  void run(const std::string& job, JobState end = JobState::Ended) {
+    begin(job);
+    least = most = fastest_turn = 0;
+    set_points.clear();
     const auto ended = [&] {
       least = std::min(least, cell->out.command[6]);
       most = std::max(most, cell->out.command[6]);
+      fastest_turn = std::max(fastest_turn, std::abs(cell->out.speed[6]));
+      set_points.push_back(joints());
       return cell->out.job.state == JobState::Ended || cell->out.job.state == JobState::Failed;
     };
     ASSERT_TRUE(cell->until(ended, 20000));
@@ -48,7 +60,9 @@ class Workpiece : public testing::Test {
     try {
       Cell sut(job, 4, 0, true, settings, element.empty() ? text : with_element(text, element));
     } catch (const std::runtime_error& error) {
-      return error.what();
+      const std::string said = error.what();
+      const std::size_t file = said.find("main.job:");
+      return file == std::string::npos ? said : said.substr(file);
     }
     return "";
   }
@@ -58,6 +72,19 @@ class Workpiece : public testing::Test {
       q[i] = radians(cell->out.command[static_cast<std::size_t>(i)]);
     }
     return q;
+  }
+  // rad, by which the axes of the arm are away from straight lines between the set points of an earlier run.
+  [[nodiscard]] double away_from(const std::vector<Joints>& path) const {
+    using ArmAxes = Eigen::Matrix<double, 6, 1>;
+    const ArmAxes here = joints().head<6>();
+    double least_away = HUGE_VAL;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const ArmAxes from = path[i - 1].head<6>();
+      const ArmAxes along = path[i].head<6>() - from;
+      const double part = along.squaredNorm() > 0 ? (here - from).dot(along) / along.squaredNorm() : 0;
+      least_away = std::min(least_away, (here - from - std::clamp(part, 0.0, 1.0) * along).norm());
+    }
+    return least_away;
   }
   void expect_on_workpiece(const Vec3& place) const {
     EXPECT_LT((1000 * arm.forward(joints()).position - place).norm(), 1e-6) << arm.forward(joints()).position;
@@ -115,8 +142,94 @@ TEST_F(Workpiece, A_joint_motion_beyond_a_limit_of_it_is_rejected_before_it_begi
     EXPECT_NEAR(most, 0, 1e-6) << motion;
   }
   EXPECT_NE(errors_of("POINT C = POSE 100 0 150 RPY 180 0 0 AXIS 7 100\nMOVJ C\n")
-                .find("main.job:1:7: error: point 'C': AXIS 7 is at 100 degrees, its limits are -91.6732 to 91.6732"),
+                .find("main.job:1:38: error: point 'C': AXIS 7 is at 100 degrees, its limits are -91.6732 to 91.6732"),
             std::string::npos);
+}
+
+// With the default 1320000 counts per turn, a drive of 32 bits counts 1626 turns each way.
+TEST_F(Workpiece, An_angle_that_its_drive_cannot_count_is_rejected) {
+  const std::string said = errors_of(kTurntableJob + "MOVJ A\n  MOVL B SPEED 10% AXIS 7 1e12\nMOVL B AXIS 7 -585600\n");
+  EXPECT_EQ(
+      said,
+      "main.job:6:20: error: AXIS 7 is at 1e+12 degrees; its drive counts from -585677 to 585677 (counts_per_turn)");
+  EXPECT_NE(errors_of("POINT C = POSE 100 0 150 RPY 180 0 0 AXIS 7 -6e5\nMOVJ C\n")
+                .find("main.job:1:38: error: point 'C': AXIS 7 is at -600000 degrees; its drive counts from"),
+            std::string::npos);
+  EXPECT_NE(errors_of("POINT D = JOINT -60 -70 90 -110 -90 0 6e5\nMOVJ D\n")
+                .find("main.job:1:7: error: point 'D': joint 7 is at 600000 degrees; its drive counts from"),
+            std::string::npos);
+  Settings fine;
+  fine.counts_per_turn = {1e5, 1e5, 1e5, 1e5, 1e5, 1e5, -1e9};
+  fine.gear = {1, 1, 1, 1, 1, 1, 2};
+  fine.zero = {0, 0, 0, 0, 0, 0, 6};
+  EXPECT_EQ(
+      errors_of(kTurntableJob + "MOVJ HERE AXIS 7 380\nMOVL A AXIS 7 381\n", "", fine),
+      "main.job:6:8: error: AXIS 7 is at 381 degrees; its drive counts from -380.547 to 380.547 (counts_per_turn)");
+  for (const std::string motion : {"MOVJ HERE AXIS 7 x", "MOVL B AXIS 7 -x", "MOVJ B AXIS 7 x"}) {
+    run("VAR x = 1e12\nMOVJ A\nTRY\n" + motion + "\nRECOVER\nMOVJ HERE AXIS 7 -5\nEND\n");
+    EXPECT_NEAR(cell->out.command[6], -5, 1e-9) << motion;
+    EXPECT_NEAR(most, 0, 1e-6) << motion;
+  }
+}
+
+TEST_F(Workpiece, An_angle_is_given_once) {
+  const std::string said = "error: this line already says where axis 7 is; leave one of them out";
+  EXPECT_EQ(errors_of(kTurntableJob + "MOVL B AXIS 7 10 SPEED 20% AXIS 7 20\n"), "main.job:5:33: " + said);
+  EXPECT_EQ(errors_of("POINT C = POSE 100 0 150 RPY 180 0 0 AXIS 7 0 AXIS 7 0\nMOVJ C\n"), "main.job:1:52: " + said);
+}
+
+TEST_F(Workpiece, A_point_out_of_reach_is_reported_with_the_angle) {
+  ReadJobs jobs = parse_jobs({{"main.job",
+                               "POINT C = POSE 5000 0 150 RPY 180 0 0 AXIS 7 90\n"
+                               "POINT D = POSE 5000 0 150 RPY 180 0 0\n"}},
+                             shape_of(arm));
+  EXPECT_EQ(base::to_text(solve_points(jobs.book, arm, true)),
+            "main.job:1:7: warning: point 'C': the arm cannot hold its tool like that there with AXIS 7 at 90 degrees; "
+            "give it a nearer position or another orientation\n"
+            "main.job:2:7: warning: point 'D': the arm cannot hold its tool like that there with AXIS 7 anywhere; "
+            "give it a nearer position or another orientation\n");
+  run("POINT C = POSE -300 0 150 RPY 180 0 0\nC = POSE 5000, 0, 150 RPY 180, 0, 0\nMOVJ HERE AXIS 7 -30\nMOVL C\n",
+      JobState::Failed);
+  EXPECT_STREQ(cell->out.job.message, "main.job:8: the target is out of reach; axis 7 ends at -30 degrees");
+  run("POINT C = POSE -300 0 150 RPY 180 0 0\nC = POSE 5000, 0, 150 RPY 180, 0, 0\nMOVJ C AXIS 7 12.5\n",
+      JobState::Failed);
+  EXPECT_STREQ(cell->out.job.message, "main.job:7: the target is out of reach; axis 7 ends at 12.5 degrees");
+}
+
+// The tool rests on the workpiece, 100 mm from the axis of the table, so it moves on a circle in the world.
+TEST_F(Workpiece, A_speed_of_the_tool_limits_a_table_that_turns_alone) {
+  const auto fastest = [this](const std::string& speed) {
+    run("MOVJ A\nMOVL HERE AXIS 7 90" + speed + "\n");
+    return fastest_turn;
+  };
+  EXPECT_NEAR(fastest(" SPEED 20 mm/s"), degrees(0.198), degrees(0.002));
+  EXPECT_NEAR(fastest(" SPEED 90 mm/s"), degrees(0.89), degrees(0.01));
+  EXPECT_NEAR(fastest(" SPEED 2%"), degrees(0.03), 1e-3);
+  EXPECT_GT(fastest(""), degrees(1));
+}
+
+// The arm comes to rest on its path, as if the table still turned. The path is known from a run without the fault.
+TEST_F(Workpiece, A_fault_of_its_drive_stops_the_arm_on_its_path) {
+  const std::string job = "MOVJ A\nMOVL B AXIS 7 70 SPEED 60 mm/s\n";
+  run(job);
+  const std::vector<Joints> path = set_points;
+  begin(job);
+  ASSERT_TRUE(cell->until([&] { return cell->out.command[6] > 35; }));
+  const double turned = cell->out.axes[6].position;
+  const Joints before = joints();
+  cell->in.drives[6].status = Cell::kFault;
+  int periods = 0;
+  ASSERT_TRUE(cell->until([&] {
+    EXPECT_LT(away_from(path), 1e-6) << ++periods;
+    return cell->out.state == GroupState::ErrorStop;
+  }));
+  EXPECT_EQ(cell->out.error, ErrorCode::Drive);
+  EXPECT_EQ(cell->out.error_axis, 7);
+  EXPECT_EQ(cell->out.job.state, JobState::Failed);
+  EXPECT_STREQ(cell->out.job.message, "main.job:6: axis 7 (turn): a drive reports a fault");
+  EXPECT_GT((joints() - before).head<6>().norm(), 1e-4) << "the arm brakes";
+  EXPECT_LT((joints() - before).head<6>().norm(), 0.1);
+  EXPECT_NEAR(cell->out.command[6], turned, 1) << "the table is to stay where it is";
 }
 
 TEST_F(Workpiece, A_place_in_the_world_is_reached_however_it_is_turned) {
