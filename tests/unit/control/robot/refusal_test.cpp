@@ -232,7 +232,7 @@ TEST_P(RefusalOfHeldAxes, Comes_where_the_others_are_singular) {
 }
 
 INSTANTIATE_TEST_SUITE_P(On_slow_lines, RefusalOfHeldAxes,
-                         testing::Values("tilt_table", "turntable", "iiwa14", "rail"));
+                         testing::Values("tilt_table", "turntable", "iiwa14", "rail", "cell"));
 
 class RefusalOfTables : public Refusal {};
 
