@@ -234,6 +234,27 @@ TEST_P(RefusalOfHeldAxes, Comes_where_the_others_are_singular) {
 INSTANTIATE_TEST_SUITE_P(On_slow_lines, RefusalOfHeldAxes,
                          testing::Values("tilt_table", "turntable", "iiwa14", "rail", "cell"));
 
+class RefusalOfRedundantArms : public Refusal {};
+
+// Random motions of iiwa14, rail and panda, in this order, for the same reason: the first one was planned although its
+// path cannot be followed to its end, the others took too much work to be rejected.
+TEST_P(RefusalOfRedundantArms, Comes_where_the_others_are_singular) {
+  for (const long seed : {1201L, 1326L, 1425L}) {
+    const std::optional<Fault> fault = plan_random(seed);
+    if (!fault) {
+      continue;
+    }
+    SCOPED_TRACE(seed);
+    if (fault->ok()) {
+      EXPECT_LE(used(), 1.001);
+    } else {
+      EXPECT_LE(planner->work(), PlanningWork::kMaxRefusalWork) << to_string(fault->code);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(On_random_motions, RefusalOfRedundantArms, testing::Values("iiwa14", "rail", "panda"));
+
 class RefusalOfTables : public Refusal {};
 
 // The random line that showed it: axis 5 is at 6e-8 rad in its middle, and axes 4 and 6 stepped by 4 mrad.
