@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "control/robot/files/list_bodies.h"
+#include "tools/client/robot/pallets.h"
 #include "tools/client/text/suggest.h"
 
 namespace indurop::tools {
@@ -57,8 +59,9 @@ robot::FileNames files_of(const config::Config& config, const config::Module& mo
 // Warns of misspelled properties: a name that the robot task does not know is the module's own, unless it is similar to
 // a known one.
 void warn_of_names(const config::Config& config, const config::Module& module, std::vector<base::Diagnostic>& all) {
+  std::vector<std::string> known = robot::setting_names();
+  known.emplace_back(kPallets);
   for (const config::Property& one : module.properties) {
-    const auto& known = robot::setting_names();
     const bool is_known = std::find(known.begin(), known.end(), one.name) != known.end();
     if (const std::string meant = is_known ? "" : did_you_mean(one.name, known); !meant.empty()) {
       all.push_back({base::Diagnostic::Severity::Warning, config.file.string(), one.place,
@@ -112,6 +115,30 @@ void check_others(const config::Config& config, const config::Module& module, co
   }
 }
 
+// Checks what only programs that show the robot read.
+void check_pallets(const config::Config& config, const config::Module& module, const schema::Schema& schema,
+                   std::vector<base::Diagnostic>& all) {
+  const config::Property* const given = property(module, kPallets);
+  if (given == nullptr) {
+    return;
+  }
+  const auto error = [&](const std::string& text) {
+    all.push_back({base::Diagnostic::Severity::Error, config.file.string(), given->place,
+                   fmt::format("property {}: {}", kPallets, text)});
+  };
+  const auto pallets = pallets_in(given->value, robot::list_bodies(files_of(config, module)));
+  if (!pallets) {
+    error(pallets.error());
+    return;
+  }
+  for (const Pallet& one : *pallets) {
+    const auto place = schema::find_place(schema, one.used);
+    if (!schema.variables.empty() && (!place || !is_number(place->type))) {
+      error(place ? fmt::format("'{}' is not a number", one.used) : place.error().message);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<base::Diagnostic> check_robot_files(const config::Config& config, const config::CheckResult& check) {
@@ -132,6 +159,9 @@ std::vector<base::Diagnostic> check_robot_files(const config::Config& config, co
     }
     warn_of_names(config, module, all);
     all.insert(all.end(), found.files.begin(), found.files.end());
+    if (!base::has_error(found.files)) {
+      check_pallets(config, module, check.schema, all);
+    }
     if (!check.schema.variables.empty()) {
       check_others(config, module, check.schema, all);
     }
@@ -149,9 +179,15 @@ std::vector<RobotFiles> robot_files_of(const config::Config& config) {
       robot::Settings settings;
       static_cast<void>(robot::take_properties(text_of(module), settings));
       settings.workspace.resize(settings.workspace.size() == 6 ? 6 : 0);
-      out.push_back({module.name, files_of(config, module), settings.workspace});
+      out.push_back({module.name, files_of(config, module), settings.workspace, text_of(module)(kPallets)});
     }
   }
+  const std::vector<RobotFiles> all = out;
+  std::erase_if(out, [&all](const RobotFiles& one) {
+    return one.names.jobs.empty() && std::any_of(all.begin(), all.end(), [&one](const RobotFiles& other) {
+             return !other.names.jobs.empty() && other.names.urdf == one.names.urdf;
+           });
+  });
   return out;
 }
 

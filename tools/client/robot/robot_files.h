@@ -15,11 +15,13 @@ namespace indurop::tools {
 // be read, reads URDF.
 std::vector<base::Diagnostic> check_robot_files(const config::Config& config, const config::CheckResult& check);
 
-// The robot modules of a configuration, and their files.
+// The robot modules of a configuration, and their files. A module without jobs that reads the URDF of one with jobs
+// simulates that arm, and is none.
 struct RobotFiles {
   std::string module;
   robot::FileNames names;
   std::vector<double> workspace;  // the property, as Settings::workspace; empty: none, or a wrong one
+  std::string pallets;            // the property, see pallets_in()
 };
 std::vector<RobotFiles> robot_files_of(const config::Config& config);
 

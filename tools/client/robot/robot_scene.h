@@ -9,12 +9,15 @@
 
 #include "config/model/config.h"
 #include "control/robot/files/list_bodies.h"
+#include "tools/client/robot/pallets.h"
 
 namespace indurop::tools {
 
 struct RobotScene {
   robot::ListedBodies bodies;
   std::vector<double> workspace;  // mm, two opposite corners in the frame of the base; empty: there is none
+  std::vector<Pallet> pallets{};
+  std::string problem{};  // why something of it is missing; empty: nothing is
 };
 // Empty if the files cannot be read.
 RobotScene robot_scene_of(const config::Config& config, const std::string& module);

@@ -6,6 +6,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <utility>
+
+#include "tools/client/robot/pallets.h"
 
 namespace indurop::tools {
 namespace {
@@ -90,6 +93,74 @@ TEST_F(Robot_files, Other_robots_are_declared_and_named_in_access) {
                    HasSubstr("property other_robots: no module of this node declares 'PLC_ROBOT3::ROBOT_SPACE'")}));
   config_.modules[0].reads.emplace_back("PLC_ROBOT2::ROBOT_HELD");
   EXPECT_THAT(errors(), testing::Not(testing::Contains(HasSubstr("<access>"))));
+}
+
+robot::ListedBodies bodies_with_pallet() {
+  robot::ListedBodies bodies;
+  bodies.work_frames.push_back({"pallet", {100, 200, 30}, {0, 0, 90}, false, {{"CORNER", {80, 210, 35}}}});
+  return bodies;
+}
+
+TEST(Pallets, Places_are_in_the_order_in_which_they_are_used) {
+  const auto found = pallets_in(" CORNER y 3 40 x 2 -60 z 2 30 PALLET::parts ; ", bodies_with_pallet());
+  ASSERT_TRUE(found.ok()) << found.error();
+  ASSERT_EQ(found->size(), 1U);
+  const Pallet& one = found->front();
+  EXPECT_EQ(one.frame, "pallet");
+  EXPECT_EQ(one.used, "PALLET::parts");
+  EXPECT_THAT(one.size, ElementsAre(60, 40, 30));
+  ASSERT_EQ(one.places.size(), 12U);
+  // The frame is turned by 90 degrees: its y is -x of the base, its x is y of the base.
+  const auto expect_place = [&](std::size_t number, double x, double y, double z) {
+    EXPECT_NEAR(one.places[number][0], x, 1e-9) << number;
+    EXPECT_NEAR(one.places[number][1], y, 1e-9) << number;
+    EXPECT_NEAR(one.places[number][2], z, 1e-9) << number;
+  };
+  expect_place(0, 80, 210, 35);
+  expect_place(1, 40, 210, 35);
+  expect_place(2, 0, 210, 35);
+  expect_place(3, 80, 150, 35);
+  expect_place(6, 80, 210, 65);
+  expect_place(11, 0, 150, 65);
+}
+
+TEST(Pallets, What_is_wrong_is_said) {
+  for (const auto& [text, why] : {std::pair("CORNER y 3 40", "is no pallet; write POINT"),
+                                  {"CORNER y 3 40 x 2 PALLET::parts", "is no pallet"},
+                                  {"CORNER q 3 40 parts", "'q 3 40' is no direction"},
+                                  {"CORNER y 2.5 40 parts", "is no direction"},
+                                  {"CORNER y 3 0 parts", "is no direction"},
+                                  {"CORNER y 200 4 x 200 4 parts", "has 40000 places; at most 2000"},
+                                  {"CORNR y 3 40 parts", "Did you mean 'CORNER'?"}}) {
+    const auto found = pallets_in(text, bodies_with_pallet());
+    ASSERT_FALSE(found.ok()) << text;
+    EXPECT_THAT(found.error(), HasSubstr(why));
+  }
+  EXPECT_THAT(*pallets_in("", {}), IsEmpty());
+}
+
+TEST_F(Robot_files, Pallets_are_checked_with_the_module) {
+  check_.schema.variables.emplace_back().name = "PALLET::parts";
+  write("arm.urdf", kArm);
+  write("points.job", "FRAME f = POSE 0 0 0 RPY 0 0 0\nPOINT A = JOINT 0\n");
+  config_.modules[0].properties = {{"urdf", "arm.urdf"}, {"jobs", "points.job"}, {"pallets", "A x 2 40 PALLET::parts"}};
+  EXPECT_THAT(errors(), testing::Contains(HasSubstr("property pallets: there is no point 'A' in a work frame")));
+  config_.modules[0].properties.back() = {"pallet", "A x 2 40 PALLET::parts"};
+  EXPECT_THAT(errors(), testing::Contains(HasSubstr("the robot has no property 'pallet'. Did you mean 'pallets'?")));
+}
+
+TEST_F(Robot_files, A_module_that_simulates_the_arm_is_no_robot) {
+  config_.modules[0].name = "robot";
+  config_.modules[0].properties = {{"urdf", "arm.urdf"}, {"jobs", "pick.job"}};
+  config_.modules.emplace_back().name = "physics";
+  config_.modules[1].properties = {{"urdf", "arm.urdf"}};
+  config_.modules.emplace_back().name = "other";
+  config_.modules[2].properties = {{"urdf", "other.urdf"}};
+  std::vector<std::string> names;
+  for (const RobotFiles& one : robot_files_of(config_)) {
+    names.push_back(one.module);
+  }
+  EXPECT_THAT(names, ElementsAre("robot", "other"));
 }
 
 TEST_F(Robot_files, Only_robot_modules_have_them) {
