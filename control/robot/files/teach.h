@@ -52,7 +52,7 @@ struct TaughtPath {
 };
 // Writes a job that follows a guided path, within the tolerance: MOVL where the tip went straight, MOVJ STRAIGHT where
 // the axes did, else MOVS through as few points as that takes. A file that exists is only replaced if the robot reads
-// it.
+// it and it is empty or begins as the jobs that this function writes.
 TaughtPath teach_path(const FileNames& names, const PathOrder& order, const std::vector<GuidedPlace>& path);
 
 struct TeachOrder {

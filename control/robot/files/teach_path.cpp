@@ -13,11 +13,13 @@
 #include "control/robot/job/point_lines.h"
 #include "control/robot/kinematics/tool_set.h"
 #include "control/robot/plan/path_fit.h"
+#include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 
 namespace indurop::robot {
 namespace {
 
+constexpr const char* kFirstWords = "# Guided by hand along ";
 constexpr double kPart = 0.8;       // of the tolerance; the rest is for what drives deviate
 constexpr double kSameWay = 5e-5;   // m; nearer places are one, as of a hand that rests
 constexpr double kSameTurn = 1e-4;  // rad
@@ -81,8 +83,8 @@ std::string job_text(const PathOrder& order, const Arm& arm, const std::vector<F
     }
     motions += motion.kind == FitKind::Axes ? " STRAIGHT\n" : "\n";
   }
-  return "# Guided by hand along " + decimal_text(out.length) + " mm; within " + decimal_text(out.deviation) +
-         " mm and " + decimal_text(out.turn_deviation) + " deg of it.\n" + points + motions;
+  return kFirstWords + decimal_text(out.length) + " mm; within " + decimal_text(out.deviation) + " mm and " +
+         decimal_text(out.turn_deviation) + " deg of it.\n" + points + motions;
 }
 
 // The tool of that name; -1: there is none.
@@ -111,7 +113,17 @@ FileNames without_file(FileNames names, const std::string& file) {
   return names;
 }
 
+// Whether the file has a job that a person wrote, which is not to be lost.
+bool was_not_guided(const std::string& file) {
+  const auto text = base::read_file(file);
+  return text.ok() && !text->empty() && !text->starts_with(kFirstWords);
+}
+
 void write_job(FileNames others, const Arm& arm, TaughtPath& out) {
+  if (out.is_read && was_not_guided(out.file)) {
+    out.problem = out.file + ": it was not written by guiding, and is kept; choose another name";
+    return;
+  }
   others.jobs.push_back(out.file);
   out.errors = problems_with(others, out.file, out.text, arm);
   if (!out.errors.empty()) {

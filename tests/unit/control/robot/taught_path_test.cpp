@@ -250,5 +250,23 @@ TEST_F(TaughtPaths, What_cannot_be_written_is_said) {
   EXPECT_FALSE(std::filesystem::exists(folder.name("two.job")));
 }
 
+TEST_F(TaughtPaths, Only_jobs_that_were_guided_are_replaced) {
+  const Folder folder;
+  const FileNames names{folder.write("arm.urdf", spec.urdf()),
+                        {folder.write("points.job", "POINT A = JOINT 0 0 0 0 90 0\n"),
+                         folder.write("own.job", "MOVJ A\n"), folder.write("seam.job", "")},
+                        {}};
+  const std::vector<GuidedPlace> path{{{0, 0, 0, 0, 90, 0}}, {{10, 0, 0, 0, 90, 0}}, {{20, 0, 0, 0, 90, 0}}};
+  PathOrder order;
+  order.job = "own";
+  EXPECT_THAT(teach_path(names, order, path).problem, HasSubstr("it was not written by guiding, and is kept"));
+  order.job = "seam";
+  for (const std::size_t places : {2U, 3U}) {
+    const TaughtPath taught = teach_path(names, order, {path.begin(), path.begin() + static_cast<int>(places)});
+    EXPECT_EQ(taught.problem, "");
+    EXPECT_TRUE(taught.is_read);
+  }
+}
+
 }  // namespace
 }  // namespace indurop::robot
