@@ -23,6 +23,8 @@ constexpr double kDrySpeed = 0.01;    // rad/s or m/s: below this, dry friction 
 constexpr double kWallTime = 0.5;     // s: an axis near its end is no faster than the way left in this time
 constexpr double kWallMargin = 1e-3;  // rad or m, before the end of an axis
 constexpr double kGuidedPart = 0.9;   // of an axis
+constexpr const char* kNoTorque =
+    "guiding by hand needs masses in the URDF, the property rated_torque, and drives that report their torques (6077h)";
 constexpr double kRefusedPace = 0.7;  // where set points were refused
 constexpr double kLeastPace = 0.02;
 constexpr double kPaceTime = 1;  // s, until the full speed is back
@@ -59,7 +61,7 @@ void Guiding::step(const Inputs& in, const ModeGuard& mode) noexcept {
   }
   if (held && !blocked_ && robot_.states.is(GroupState::Standby)) {
     if (const Fault fault = may_begin(mode); !fault.ok()) {
-      refuse(fault, to_string(fault.code));
+      refuse(fault, fault.code == ErrorCode::NoTorque ? kNoTorque : to_string(fault.code));
     }
   }
   const bool begins = wanted_ && !blocked_ && robot_.states.is(GroupState::Standby) && group_.settled() &&

@@ -5,21 +5,20 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cstring>
-#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/cli/robot/hand.h"
 #include "tools/cli/values/forcing.h"
 #include "tools/client/node/node_choice.h"
+#include "tools/client/robot/guided_record.h"
 #include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {
-
-constexpr std::size_t kMostPlaces = 200'000;  // about an hour
 
 // Returns whether a line was typed at the terminal since the last call.
 bool line_typed() {
@@ -31,75 +30,64 @@ bool line_typed() {
   return ::read(STDIN_FILENO, text.data(), text.size()) > 0;
 }
 
-// What is recorded while a hand guides the robot.
+// Records while a hand guides the robot, and reports what happens.
 class GuideLog {
  public:
-  GuideLog(Context& context, const vars::Store& store, const RobotChoice& choice)
-      : context_(context), store_(store), choice_(choice) {}
+  GuideLog(Context& context, const vars::Store& store, GuidedRecord record)
+      : context_(context), store_(store), record_(std::move(record)) {}
 
-  // Finds the variables. Returns the exit code.
-  int begin() {
-    return select_items(context_, store_,
-                        {choice_.space + "::ROBOT_ARM.bGuided", choice_.space + "::ROBOT_GUIDE.nMark",
-                         choice_.space + "::ROBOT_JOB.cMessage"},
-                        items_);
+  // Finds the variable with the robot's messages. Returns the exit code.
+  int begin(const std::string& space) {
+    const int code = select_items(context_, store_, {space + "::ROBOT_JOB.cMessage"}, items_);
+    first_ = last_ = code == kOk ? reason() : "";
+    return code;
   }
   // Takes the present place. Returns the exit code.
   int take() {
-    const auto guided = operate::read(store_, items_[0]);
-    const auto mark = operate::read(store_, items_[1]);
-    if (!guided || !mark) {
-      context_.out.error((guided ? mark : guided).error().text);
+    const auto news = record_.take(store_, line_typed());
+    if (!news) {
+      context_.out.error(news.error().text);
       return kFailed;
     }
-    std::uint32_t number = 0;
-    std::memcpy(&number, mark->data(), std::min(sizeof number, mark->size()));
-    const bool pressed = last_mark_ && number != *last_mark_;
-    last_mark_ = number;
-    const bool now = std::any_of(guided->begin(), guided->end(), [](std::uint8_t byte) { return byte != 0; });
-    if (now && !guided_) {
+    if (news->began) {
       context_.out.note("push the arm; Enter marks a point");
     }
-    guided_ = now;
-    if (!now || places_.size() >= kMostPlaces) {
-      return kOk;
+    if (news->marked) {
+      context_.out.note(fmt::format("point {} is marked", record_.marks()));
     }
-    const auto place = read_place(store_, choice_.space);
-    if (!place) {
-      context_.out.error(place.error().text);
-      return kFailed;
+    if (news->filled) {
+      context_.out.note("nothing more is recorded: the path is as long as it may be");
     }
-    tool_ = place->tool;
-    places_.push_back({place->stand.joints, pressed || line_typed()});
-    marks_ += places_.back().marked ? 1 : 0;
-    if (places_.back().marked) {
-      context_.out.note(fmt::format("point {} is marked", marks_));
+    // Why it does not begin, as soon as the robot says so.
+    if (std::string now = record_.guided() ? last_ : reason(); now != last_) {
+      last_ = std::move(now);
+      if (!last_.empty()) {
+        context_.out.note(last_);
+      }
     }
     return kOk;
   }
-  // Why the robot was not guided, as it says.
+  // Returns why the robot was not guided, as it says; empty: it said nothing since the begin.
+  [[nodiscard]] std::string new_reason() const { return reason() == first_ ? "" : reason(); }
+  [[nodiscard]] const GuidedRecord& record() const { return record_; }
+
+ private:
   [[nodiscard]] std::string reason() const {
-    const auto text = operate::read(store_, items_[2]);
+    const auto text = operate::read(store_, items_[0]);
     const auto* const begin = text ? reinterpret_cast<const char*>(text->data()) : "";
     return {begin, text ? ::strnlen(begin, text->size()) : 0};
   }
-  [[nodiscard]] const std::vector<robot::GuidedPlace>& places() const { return places_; }
-  [[nodiscard]] const std::string& tool() const { return tool_; }
 
- private:
   Context& context_;
   const vars::Store& store_;
-  const RobotChoice& choice_;
+  GuidedRecord record_;
   std::vector<Item> items_;
-  std::vector<robot::GuidedPlace> places_;
-  std::string tool_;
-  std::optional<std::uint32_t> last_mark_;
-  bool guided_ = false;
-  int marks_ = 0;
+  std::string first_, last_;
 };
 
-int write_taught(Context& context, const robot::FileNames& names, const robot::PathOrder& order, const GuideLog& log) {
-  const robot::TaughtPath taught = robot::teach_path(names, order, log.places());
+int write_taught(Context& context, const robot::FileNames& names, const robot::PathOrder& order,
+                 const GuidedRecord& record) {
+  const robot::TaughtPath taught = robot::teach_path(names, order, record.places());
   if (!taught.errors.empty() || !taught.problem.empty()) {
     print_diagnostics(context, taught.errors, false);
     if (!taught.problem.empty()) {
@@ -130,27 +118,33 @@ int guide(Context& context, const RobotChoice& choice, const GuideOrder& order) 
   if (!store) {
     return report(context.out, store.error());
   }
-  GuideLog log(context, *store, choice);
-  if (const int code = log.begin(); code != kOk) {
+  auto record = GuidedRecord::open(*store, choice.space);
+  const auto refused = record ? why_not_guided(*store, choice.space) : record.error().text;
+  if (refused) {
+    context.out.error(*refused);
+    return kFailed;
+  }
+  GuideLog log(context, *store, std::move(record).value());
+  if (const int code = log.begin(choice.space); code != kOk) {
     return code;
   }
-  constexpr int kByHand = 4;  // ROBOT_JOG.eFrame
   HeldJog held;
   held.verb = "robot guide";
-  held.fields = fmt::format("eFrame: {}", kByHand);
+  held.fields = fmt::format("eFrame: {}", GuidedRecord::kByHand);
   held.note = "release the arm until it can be guided; Ctrl-C ends";
   held.for_ns = order.for_ns;
   held.each = [&log] { return log.take(); };
   if (const int code = hold_jog(context, *store, choice, held); code != kOk) {
     return code;
   }
-  if (log.places().empty()) {
-    context.out.error(fmt::format("the robot was not guided: {}", log.reason()));
+  if (log.record().places().empty()) {
+    const std::string reason = log.new_reason();
+    context.out.error(reason.empty() ? "the robot was not guided" : "the robot was not guided: " + reason);
     return kFailed;
   }
   robot::PathOrder path = order.path;
-  path.tool = log.tool();
-  return records ? write_taught(context, files.names, path, log) : kOk;
+  path.tool = log.record().tool();
+  return records ? write_taught(context, files.names, path, log.record()) : kOk;
 }
 
 }  // namespace indurop::tools
