@@ -27,6 +27,7 @@ struct HeldBase {
   std::string board;
   operate::Who who;
   std::string what;           // for the audit log
+  std::int64_t keep_ns = 0;   // to renew within; 0: as usual at this desk
   std::int64_t until_ns = 0;  // CLOCK_MONOTONIC; set by the desk
 };
 
@@ -65,7 +66,7 @@ class Desk {
       remove(found, lost);
       return false;
     }
-    found->second.until_ns = rt::now_ns() + keep_ns_;
+    found->second.until_ns = end_of(found->second);
     return true;
   }
 
@@ -98,13 +99,23 @@ class Desk {
     count_ = all_.size();
   }
 
+  template <class Act>
+  void for_each(Act act) {
+    const std::lock_guard guard(mutex_);
+    for (auto& [name, held] : all_) {
+      act(held);
+    }
+  }
+
   [[nodiscard]] bool is_empty() const noexcept { return count_.load() == 0; }
 
  private:
   using All = std::map<std::string, Held>;
 
+  std::int64_t end_of(const Held& held) const { return rt::now_ns() + (held.keep_ns > 0 ? held.keep_ns : keep_ns_); }
+
   std::string insert(Held held) {
-    held.until_ns = rt::now_ns() + keep_ns_;
+    held.until_ns = end_of(held);
     auto name = all_.emplace(tools::random_word(), std::move(held)).first->first;
     count_ = all_.size();
     return name;

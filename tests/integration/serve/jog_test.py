@@ -102,6 +102,23 @@ def test_refuses_what_is_no_motion(setting):
     assert switch()["bEnable"] == 0 and switch()["nBeat"] == 0, "nothing was written"
 
 
+def test_a_robot_that_cannot_be_guided_is_not(setting):
+    server, base, switch = begun(setting)
+    for wrong, status, why in (({"speed": []}, 409, "ROBOT_ARM"), ({"speed": [0, 0, 25]}, 409, "leave speed out")):
+        said = server.post(base + "/jog", {"robot": "arm", "frame": "hand", **wrong})
+        assert said.status == status and why in said.json()["message"], (wrong, said.body)
+    assert switch()["bEnable"] == 0 and switch()["nBeat"] == 0, "nothing was written"
+    path = server.get(base + "/robots/robot/guiding?robot=arm").json()
+    assert (path["places"], path["records"], path["guided"]) == (0, False, False), path
+    write = base + "/robots/robot/guiding/write"
+    for body, status in (({}, 400), ({"job": "seam", "within": "all"}, 400), ({"job": "seam", "robot": "arm"}, 409)):
+        said = server.post(write, body)
+        assert said.status == status, (body, said.status, said.body)
+    assert server.ask("POST", write, {"job": "seam"}).status == 401
+    actions = [(one["action"], one["outcome"]) for one in server.get(API + "/audit").json()["audit"]]
+    assert ("write guided path", "this server has recorded no path of this robot: guide it first") in actions, actions
+
+
 def test_one_hand_at_a_time_and_only_its_own(setting):
     server, base, switch = begun(setting)
 

@@ -77,6 +77,8 @@ Reply release(Api& api, const Call& call);
 Reply begin_jog(Api& api, const Call& call);
 Reply keep_jog(Api& api, const Call& call);
 Reply end_jog(Api& api, const Call& call);
+Reply guided_path(Api& api, const Call& call);
+Reply write_guided_path(Api& api, const Call& call);
 Reply calibration(Api& api, const Call& call);
 Reply take_calibration_point(Api& api, const Call& call);
 Reply drop_calibration_point(Api& api, const Call& call);

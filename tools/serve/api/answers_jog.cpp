@@ -43,8 +43,8 @@ Reply begin_jog(Api& api, const Call& call) {
     sound = sound && one.number().has_value();
     jog.speed.push_back(one.number().value_or(0));
   }
-  if (!sound || jog.speed.empty()) {
-    return write.failed(status::kBadRequest, "robot, frame and speed are needed");
+  if (!sound || (jog.speed.empty() && jog.frame != "hand")) {
+    return write.failed(status::kBadRequest, "robot, frame and speed are needed; for the frame hand no speed");
   }
   write.about(call.request->body, "");
   if (!(*found)->alive()) {
@@ -62,7 +62,7 @@ Reply begin_jog(Api& api, const Call& call) {
   }
   base::Json body = about(**found);
   body["jog"] = *begun;
-  body["keep_ns"] = JogDesk::kKeepNs;
+  body["keep_ns"] = jog.frame == "hand" ? JogDesk::kKeepByHandNs : JogDesk::kKeepNs;
   return json_reply(body);
 }
 

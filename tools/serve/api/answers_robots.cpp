@@ -11,6 +11,7 @@
 #include "config/xml/plant_reader.h"
 #include "core/base/read_file.h"
 #include "tools/client/config/checked_config.h"
+#include "tools/client/robot/robot_files.h"
 #include "tools/client/robot/robot_scene.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/boards/board.h"
@@ -46,26 +47,79 @@ base::Json list_of_bodies(const std::vector<robot::ListedBody>& bodies) {
   return list;
 }
 
+base::Json list_of_frames(const std::vector<robot::ListedFrame>& frames) {
+  base::Json list = base::Json::array();
+  for (const robot::ListedFrame& frame : frames) {
+    base::Json one = base::Json::object();
+    one["name"] = frame.name;
+    one["position"] = list_of(frame.position);
+    one["orientation"] = list_of(frame.orientation);
+    one["computed"] = frame.computed;
+    one["points"] = base::Json::array();
+    for (const auto& point : frame.points) {
+      one["points"].push_back({{"name", point.name}, {"position", list_of(point.position)}});
+    }
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+base::Json list_of_belts(const std::vector<robot::ListedBelt>& belts) {
+  base::Json list = base::Json::array();
+  for (const robot::ListedBelt& belt : belts) {
+    list.push_back({{"number", belt.number},
+                    {"turns", belt.turns},
+                    {"along", belt.along},
+                    {"part", belt.part},
+                    {"length", belt.length}});
+  }
+  return list;
+}
+
+base::Json list_of_pallets(const std::vector<tools::Pallet>& pallets) {
+  base::Json list = base::Json::array();
+  for (const tools::Pallet& pallet : pallets) {
+    base::Json one = base::Json::object();
+    one["name"] = pallet.name;
+    one["frame"] = pallet.frame;
+    one["orientation"] = list_of(pallet.orientation);
+    one["size"] = list_of(pallet.size);
+    one["used"] = pallet.used;
+    one["places"] = base::Json::array();
+    for (const auto& place : pallet.places) {
+      one["places"].push_back(list_of(place));
+    }
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
 void add_scene(base::Json& robot, const tools::RobotScene& scene) {
   robot["frames"] = base::Json::array();
   for (const std::string& frame : scene.bodies.frames) {
     robot["frames"].push_back(frame);
   }
+  robot["work_frames"] = list_of_frames(scene.bodies.work_frames);
+  robot["belts"] = list_of_belts(scene.bodies.belts);
+  robot["pallets"] = list_of_pallets(scene.pallets);
   robot["zones"] = list_of_bodies(scene.bodies.zones);
   robot["bodies"] = list_of_bodies(scene.bodies.tools);
   robot["workspace"] = list_of(scene.workspace);
-  if (!scene.bodies.problem.empty()) {
-    robot["problem"] = scene.bodies.problem;
+  if (!scene.problem.empty()) {
+    robot["problem"] = scene.problem;
   }
 }
 
 // Files of a module are relative to the folder of its configuration.
 void add_robots(base::Json& robots, const config::Config& config, const tools::RunView& run,
                 const std::filesystem::path& folder) {
+  const std::vector<tools::RobotFiles> known = tools::robot_files_of(config);
   for (const config::Module& module : config.modules) {
+    const bool is_robot = std::any_of(known.begin(), known.end(),
+                                      [&module](const tools::RobotFiles& one) { return one.module == module.name; });
     const auto property = std::find_if(module.properties.begin(), module.properties.end(),
                                        [](const config::Property& one) { return one.name == "urdf"; });
-    if (property == module.properties.end() || !runs_in(run, module.name)) {
+    if (!is_robot || property == module.properties.end() || !runs_in(run, module.name)) {
       continue;
     }
     auto text = base::read_file(folder / property->value, kMostBytes);

@@ -16,6 +16,8 @@
 #include "core/schema/write_field.h"
 #include "store/operate/set.h"
 #include "store/vars/custody.h"
+#include "tools/client/robot/guided_record.h"
+#include "tools/serve/jog/guided_path.h"
 
 namespace indurop::serve {
 namespace {
@@ -24,20 +26,26 @@ using base::Problem;
 
 constexpr double kMaxSpeed = 100;  // %
 constexpr int kWorkFrame = 3;      // ROBOT_JOG.eFrame
+constexpr int kByHand = tools::GuidedRecord::kByHand;
 
-// Converts to ROBOT_JOG.eFrame. Any word other than the first three is a work frame, which the robot accepts or
-// rejects.
+// Converts to ROBOT_JOG.eFrame. Any word other than these is a work frame, which the robot accepts or rejects.
 Result<int, Problem> number_of(const std::string& frame) {
   constexpr std::array<std::string_view, 3> kWords{"axes", "base", "tool"};
   constexpr std::size_t kLongest = 31;  // size of ROBOT_JOG.frame
   const auto usual = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
   if (frame.empty() || frame.size() > kLongest || !std::all_of(frame.begin(), frame.end(), usual)) {
-    return Problem{"frame is axes, base, tool or the name of a work frame"};
+    return Problem{"frame is axes, base, tool, hand or the name of a work frame"};
+  }
+  if (frame == "hand") {
+    return kByHand;
   }
   return static_cast<int>(std::find(kWords.begin(), kWords.end(), frame) - kWords.begin());
 }
 
-std::optional<Problem> wrong_with(const JogRequest& request, std::size_t axes) {
+std::optional<Problem> wrong_with(const JogRequest& request, int frame, std::size_t axes) {
+  if (frame == kByHand) {
+    return request.speed.empty() ? std::nullopt : std::optional(Problem{"a hand sets the speed: leave speed out"});
+  }
   const auto moves = [](double speed) { return speed != 0; };
   if (request.speed.size() > axes || std::count_if(request.speed.begin(), request.speed.end(), moves) != 1) {
     return Problem{fmt::format("speed has at most {} numbers, of which one is not 0", axes)};
@@ -78,12 +86,44 @@ void JogDesk::Hand::count_beat() {
   beat = std::max(beat + 1, 1U);  // 0 has another meaning
 }
 
+bool JogDesk::Hand::send_beat() {
+  count_beat();
+  return write([this](std::span<std::uint8_t> bytes) { return schema::write_field(place.type, "nBeat", beat, bytes); });
+}
+
 void JogDesk::Hand::release() {
+  if (path) {
+    path->stop();
+  }
   (void)write([this](std::span<std::uint8_t> bytes) { return schema::write_field(place.type, "bEnable", 0.0, bytes); });
 }
 
 JogDesk::~JogDesk() {
   desk_.expire([](Hand& hand) { hand.release(); }, "ended: the server ends", true);
+}
+
+std::optional<Problem> JogDesk::record_path(Hand& hand) {
+  if (auto refused = tools::why_not_guided(hand.store, hand.robot)) {
+    return Problem{std::move(*refused)};
+  }
+  auto store = vars::Store::attach(hand.board, vars::Mode::ReadOnly);
+  if (!store) {
+    return Problem{fmt::format("its variables cannot be opened: {}", store.error().where)};
+  }
+  auto record = tools::GuidedRecord::open(*store, hand.robot);
+  if (!record) {
+    return record.error();
+  }
+  hand.path = std::make_shared<GuidedPath>(std::move(store).value(), std::move(record).value());
+  const std::lock_guard guard(mutex_);
+  paths_[{hand.board, hand.robot}] = hand.path;
+  return std::nullopt;
+}
+
+std::shared_ptr<const GuidedPath> JogDesk::guided_path(const std::string& board, const std::string& robot) const {
+  const std::lock_guard guard(mutex_);
+  const auto found = paths_.find({board, robot});
+  return found == paths_.end() ? nullptr : found->second;
 }
 
 Result<std::string, Problem> JogDesk::begin(const std::string& board, const std::string& robot, const std::string& who,
@@ -100,7 +140,7 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
   if (!place) {
     return place.error();
   }
-  if (auto wrong = wrong_with(request, place->axes)) {
+  if (auto wrong = wrong_with(request, *frame, place->axes)) {
     return std::move(*wrong);
   }
   for (const vars::Force& force : store->forces()) {
@@ -114,12 +154,17 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
   hand.board = board;
   hand.robot = robot;
   hand.who = {who, from, {}};
-  hand.what = fmt::format("{} {} [{}]", robot, request.frame, fmt::join(speed, ", "));
+  hand.keep_ns = *frame == kByHand ? kKeepByHandNs : 0;
+  hand.what = *frame == kByHand ? fmt::format("{} by hand", robot)
+                                : fmt::format("{} {} [{}]", robot, request.frame, fmt::join(speed, ", "));
   return desk_.add(std::move(hand), [&](Hand& pressed, const auto& others) -> std::optional<Problem> {
     for (const auto& [name, other] : others) {
       if (other.board == board && other.robot == robot) {
         return Problem{fmt::format("{} is moving it already", other.who.name)};
       }
+    }
+    if (auto refused = *frame == kByHand ? record_path(pressed) : std::nullopt) {
+      return refused;
     }
     (void)pressed.store.read(*pressed.place.entry, pressed.place.beat_offset,
                              {reinterpret_cast<std::uint8_t*>(&pressed.beat), sizeof pressed.beat});
@@ -142,11 +187,8 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
 bool JogDesk::keep(const std::string& board, const std::string& name, const std::string& who) {
   end_overdue();
   return desk_.keep(board, name, who, [&board](Hand& hand) -> const char* {
-    hand.count_beat();
-    const bool written = !hand.store.retired() && vars::lock_of(board).lock == vars::WriteLock::None &&
-                         hand.write([&hand](std::span<std::uint8_t> bytes) {
-                           return schema::write_field(hand.place.type, "nBeat", hand.beat, bytes);
-                         });
+    const bool written =
+        !hand.store.retired() && vars::lock_of(board).lock == vars::WriteLock::None && hand.send_beat();
     if (written) {
       return nullptr;
     }
@@ -161,6 +203,11 @@ bool JogDesk::end(const std::string& board, const std::string& name, const std::
 
 void JogDesk::end_overdue() {
   desk_.expire([](Hand& hand) { hand.release(); }, "ended: its client did not renew it in time");
+  desk_.for_each([](Hand& hand) {
+    if (hand.path) {
+      (void)hand.send_beat();
+    }
+  });
 }
 
 }  // namespace indurop::serve

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Remote jogging of robots: the enabling switch of ROBOT_JOG, which is pressed as long as its client keeps renewing. It
 // is released by the client, by this desk when the client does not renew in time, and by the robot task when the desk's
-// heartbeat stops.
+// heartbeat stops. Also guiding by hand, whose path is recorded meanwhile.
 
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,16 +21,21 @@
 
 namespace indurop::serve {
 
+class GuidedPath;
+
 // The motion that a client requests.
 struct JogRequest {
-  std::string frame;          // "axes", "base", "tool" or a work frame
-  std::vector<double> speed;  // in %, of axes, or along and about x, y, z; one is not 0
+  std::string frame;          // "axes", "base", "tool", "hand" or a work frame
+  std::vector<double> speed;  // in %, of axes, or along and about x, y, z; one is not 0. Of "hand": none
 };
 
 class JogDesk {
  public:
   // A client has to renew within this time.
   static constexpr std::int64_t kKeepNs = 250'000'000;
+  // Of guiding by hand: it needs the enabling device of manual mode, too, and the arm stands if nothing pushes it. The
+  // desk beats meanwhile.
+  static constexpr std::int64_t kKeepByHandNs = 1'000'000'000;
 
   explicit JogDesk(const Audit& audit) : desk_(audit, "end of jog", kKeepNs) {}
   ~JogDesk();
@@ -40,8 +49,10 @@ class JogDesk {
   // Renews. Returns false if this client does not hold the switch any more.
   bool keep(const std::string& board, const std::string& name, const std::string& who);
   bool end(const std::string& board, const std::string& name, const std::string& who);
-  // Releases switches whose client did not renew in time.
+  // Releases switches whose client did not renew in time, and beats for hands. To be called every 0.1 s.
   void end_overdue();
+  // Returns the path along which a hand guided this robot last; null: none since the server started.
+  [[nodiscard]] std::shared_ptr<const GuidedPath> guided_path(const std::string& board, const std::string& robot) const;
   [[nodiscard]] bool busy() const noexcept { return !desk_.is_empty(); }
 
  private:
@@ -57,17 +68,24 @@ class JogDesk {
     std::string robot;
     vars::Store store;
     Switch place;
+    std::shared_ptr<GuidedPath> path;  // that is recorded; null: it is not moved by hand
     std::uint32_t beat = 0;
 
     Hand(vars::Store opened, Switch pressed) : store(std::move(opened)), place(std::move(pressed)) {}
     void count_beat();
+    // Writes the next beat. Returns false if it cannot be written.
+    bool send_beat();
     // `change` writes fields into the value of the switch. Returns false if it cannot be written.
     template <class Change>
     bool write(Change change);
     void release();
   };
   static Result<Switch, base::Problem> switch_of(const vars::Store& store, const std::string& robot);
+  // Begins to record a path. Returns why that was refused.
+  std::optional<base::Problem> record_path(Hand& hand);
 
+  mutable std::mutex mutex_;
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<GuidedPath>> paths_;  // of boards and robots
   Desk<Hand> desk_;
 };
 

@@ -91,7 +91,7 @@ int level_of(const Request& request) {
       {"set", 2},      {"ack", 2},     {"jog", 2},   {"keep", 2},    {"load", 2},   {"call", 2},
       {"force", 3},    {"release", 3}, {"renew", 3}, {"save", 3},    {"remove", 3}, {"shelve", 3},
       {"unshelve", 3}, {"start", 4},   {"stop", 4},  {"restart", 4}, {"lock", 4},   {"rollback", 4},
-      {"replay", 4},   {"take", 3},    {"drop", 3},  {"accept", 3}};
+      {"replay", 4},   {"take", 3},    {"drop", 3},  {"accept", 3},  {"write", 3}};
   if ((!request.stream && !request.path.starts_with("/api/") && request.path != "/metrics") ||
       (request.method == Method::Post && request.path == "/api/v1/session")) {
     return 0;
