@@ -415,14 +415,44 @@ export interface RobotBody {
   orientation: number[];  // deg, roll pitch yaw
 }
 
+// A work frame, in the frame of the base.
+export interface WorkFrame {
+  name: string;
+  position: number[];  // mm
+  orientation: number[];  // deg, roll pitch yaw
+  computed: boolean;  // jobs compute it: this is where the files declare it
+  points: { name: string; position: number[] }[];  // mm, in the frame of the base
+}
+
+// A belt or a table that jobs track.
+export interface Belt {
+  number: number;
+  turns: boolean;
+  along: string;
+  part: string;
+  length: number;  // mm; 0: not known
+}
+
+export interface Pallet {
+  name: string;
+  frame: string;
+  orientation: number[];  // deg, roll pitch yaw
+  size: number[];  // mm from place to place along x, y, z of the frame; 0: there is one
+  used: string;  // variable with the number of places in use
+  places: number[][];  // mm, in the frame of the base, in the order in which they are used
+}
+
 export interface Robot {
   module: string;
   urdf: string;
   frames: string[];
+  work_frames?: WorkFrame[];
+  belts?: Belt[];
+  pallets?: Pallet[];
   zones?: RobotBody[];
   bodies?: RobotBody[];
   workspace?: number[];  // mm, two corners; empty: none
-  problem?: string;  // why zones are not known
+  problem?: string;  // why something around it is not known
   name?: string;  // added by the page, from the text
 }
 
@@ -441,6 +471,28 @@ export interface Calibration {
   place_deviation: number[];  // mm
   turn_deviation: number[];  // deg
   scale: number;
+}
+
+// The path along which a hand guided a robot.
+export interface GuidedPath {
+  records: boolean;
+  guided: boolean;
+  places: number;
+  marks: number;
+  length: number;  // mm
+  tool: string;
+  problem: string;  // why recording ended early; empty: it did not
+}
+
+// The job that was written of it.
+export interface WrittenPath {
+  file: string;
+  text: string;
+  points: number;
+  length: number;  // mm, as the next one
+  deviation: number;
+  turn_deviation: number;  // deg
+  is_read: boolean;  // the robot reads this file
 }
 
 export interface CaptureLine {

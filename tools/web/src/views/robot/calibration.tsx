@@ -5,8 +5,8 @@ import { useEffect, useState } from "preact/hooks";
 import { board_path, get, message_of, post } from "../../api/http";
 import type { Calibration as Found } from "../../api/types";
 import { DataTable, Fact } from "../../ui/parts";
+import { request_reload } from "./service";
 import type { RobotState } from "./state";
-import { SERVICE } from "./names";
 
 const KINDS: [string, string][] = [
   ["tool", "Tool"],
@@ -39,8 +39,8 @@ function Result({ now }: { now: Found }) {
       <dl class="facts">
         <Fact name="Residual, rms" value={mm(now.rms)} />
         <Fact name="Largest residual" value={`${mm(now.most)}, point ${now.worst}`} />
-        <Fact name="Deviation x, y, z" value={now.spare ? `${three(now.place_deviation)} mm` : "not known"} hint="estimated standard deviation of the result" />
-        {now.turned && <Fact name="Deviation of angles" value={now.spare ? `${three(now.turn_deviation)} deg` : "not known"} hint="estimated standard deviations about the axes of the result" />}
+        <Fact name="Standard deviation x, y, z" value={now.spare ? `${three(now.place_deviation)} mm` : "not known"} hint="estimated standard deviation of the result" />
+        {now.turned && <Fact name="Standard deviation of angles" value={now.spare ? `${three(now.turn_deviation)} deg` : "not known"} hint="estimated standard deviations about the axes of the result" />}
       </dl>
       {now.spare === 0 && <p class="quiet">These are just enough points, so nothing shows how exact they are. Take more.</p>}
       {Math.abs(now.scale - 1) > 0.01 && <p class="warn">What was touched is {now.scale.toFixed(3)} times as large as what the camera saw: check its scale.</p>}
@@ -49,13 +49,13 @@ function Result({ now }: { now: Found }) {
     </>);
 }
 
-interface PointsProps { now: Found; camera: boolean; busy: boolean; drop: (point: number) => void }
+interface PointsProps { now: Found; kind: string; camera: boolean; busy: boolean; drop: (point: number) => void }
 
-function Points({ now, camera, busy, drop }: PointsProps) {
+function Points({ now, kind, camera, busy, drop }: PointsProps) {
   if (now.points.length === 0) return null;
   return (
     <DataTable label="Points of the calibration">
-      <thead><tr><th scope="col">Point</th>{camera && <th scope="col">Seen</th>}<th scope="col" class="number">Residual</th><th scope="col"><span class="hidden">Drop</span></th></tr></thead>
+      <thead><tr><th scope="col">Point</th>{camera && <th scope="col">Seen, {kind === "camera" ? "mm" : "mm and deg"}</th>}<th scope="col" class="number">Residual</th><th scope="col" aria-label="Drop" /></tr></thead>
       <tbody>
         {now.points.map(({ mark, seen, off, place }, i) => (
           <tr key={`${i} ${place}`} title={place}>
@@ -115,13 +115,13 @@ function Open({ board, module, scope, kind, name, off, reload }: OpenProps) {
       {!now.next && !now.wrong && !accepted && <p class="why">There are enough points. Accept the result, or take more points for a better one.</p>}
       {off && <p class="quiet">{off}</p>}
       {camera && (
-        <label>Seen at <input type="text" aria-label="Where the camera saw it" placeholder={kind === "camera" ? "x, y or x, y, z in mm" : "x, y, z, roll, pitch, yaw"} value={seen}
-          onInput={(event) => set_seen(event.currentTarget.value)} /></label>)}
+        <p><label>Seen at <input type="text" aria-label="Where the camera saw it" placeholder={kind === "camera" ? "x, y or x, y, z in mm" : "x, y, z, roll, pitch, yaw"} value={seen}
+          onInput={(event) => set_seen(event.currentTarget.value)} /></label></p>)}
       <div class="bar">
         {MARKS[kind].map(([mark, title]) => (
           <button key={mark} type="button" class={mark === now.next_mark ? "main" : ""} disabled={busy || !!off} onClick={() => take(mark)}>Take: {title}</button>))}
       </div>
-      <Points now={now} camera={camera} busy={busy} drop={drop} />
+      <Points now={now} kind={kind} camera={camera} busy={busy} drop={drop} />
       {!accepted && <Result now={now} />}
       <div class="bar">
         {now.points.length > 0 && !accepted && <button type="button" class={now.wrong ? "" : "main"} disabled={busy || !!now.wrong} onClick={accept}>Accept the result</button>}
@@ -153,15 +153,7 @@ export function Calibration({ board, module, scope, state, down, work_frames }: 
   const [name, set_name] = useState("");
   const [opened, set_opened] = useState("");
   const [message, set_message] = useState("");
-  const reload = async (): Promise<void> => {
-    try {
-      const service = { [`${scope ? `${scope}::` : ""}ROBOT_MODULE_SERVICE`]: `{eOpCode: ${SERVICE.job_reload}, nRequest: ${(state?.acknowledged ?? 0) + 1}}` };
-      await post(board_path(board, "/set"), { values: service, reason: "calibrated" });
-      set_message("A reload was requested.");
-    } catch (error) {
-      set_message(message_of(error));
-    }
-  };
+  const reload = async (): Promise<void> => set_message(await request_reload(board, scope, state, "calibrated"));
   return (
     <section class="panel calibration" aria-label="Calibration">
       <details>

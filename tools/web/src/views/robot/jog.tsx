@@ -3,9 +3,10 @@
 // from this page. Override, hold and stop are next to the buttons.
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import { board_path, message_of, post, post_without_answer } from "../../api/http";
-import type { RobotState } from "./state";
+import { board_path, message_of, post } from "../../api/http";
 import { SERVICE } from "./names";
+import { Press } from "./press";
+import type { RobotState } from "./state";
 
 const FRAMES: [string, string][] = [
   ["axes", "Axes"],
@@ -14,49 +15,6 @@ const FRAMES: [string, string][] = [
 ];
 const DIRECTIONS = ["x", "y", "z", "roll", "pitch", "yaw"];
 const BUSY = ["moving", "homing", "stopping"];
-const RENEWALS = 3;  // within the time that the server waits for one
-
-// One press of a button, until it is released or lost.
-class Press {
-  private timer = 0;
-  private path = "";
-  private ended = false;
-
-  constructor(private readonly board: string, private readonly report: (problem: string) => void) {}
-
-  async begin(robot: string, frame: string, speed: number[]): Promise<void> {
-    try {
-      const { jog, keep_ns } = await post<{ jog: string; keep_ns: number }>(board_path(this.board, "/jog"), { robot, frame, speed });
-      this.path = board_path(this.board, `/jog/${jog}`);
-      if (this.ended) return this.release();  // released before the answer arrived
-      this.timer = window.setInterval(() => void this.renew(), keep_ns / 1e6 / RENEWALS);
-      void this.renew();  // the server waits since its answer, which a busy browser may have received late
-    } catch (error) {
-      this.ended = true;
-      this.report(message_of(error));
-    }
-  }
-
-  private async renew(): Promise<void> {
-    try {
-      await post(`${this.path}/keep`, undefined);
-    } catch (error) {
-      if (!this.ended) this.report(message_of(error));
-      this.end();
-    }
-  }
-
-  end(): void {
-    if (this.ended) return;
-    this.ended = true;
-    clearInterval(this.timer);
-    if (this.path) this.release();
-  }
-
-  private release(): void {
-    post_without_answer(`${this.path}/end`);
-  }
-}
 
 // Why the robot cannot be jogged, as text with what to do; empty: it can.
 function why_not(state: RobotState | null, down: string): string {
@@ -113,7 +71,7 @@ export function Jog({ board, scope, state, down, names, work_frames }: Props) {
     pressed.current = one;
     set_held(`${index} ${sign}`);
     const directions = frame === "axes" ? state?.joint.length ?? 6 : 6;
-    void one.begin(scope, frame, Array.from({ length: directions }, (_, i) => (i === index ? sign * speed : 0)));
+    void one.begin({ robot: scope, frame, speed: Array.from({ length: directions }, (_, i) => (i === index ? sign * speed : 0)) });
   };
   const write = async (values: Record<string, unknown>, success: string): Promise<void> => {
     try {

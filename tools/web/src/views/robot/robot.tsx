@@ -11,11 +11,12 @@ import { address, change_query, place } from "../../ui/address";
 import { Fact, DataTable, Waiting } from "../../ui/parts";
 import { useRequest, useStore } from "../../ui/store";
 import { Calibration } from "./calibration";
+import { Guiding } from "./guiding";
 import { Jog } from "./jog";
 import { Question } from "./question";
 import type { Scene } from "./scene";
 import { end_of_scale, SCALE_STYLE } from "./speeds";
-import { scopes_of, useRobotState, useWays, type RobotState, type Scope, type Way } from "./state";
+import { type Carried, scopes_of, useCarried, useRobotState, useUsed, useWays, VARIABLES, type RobotState, type Scope, type Way } from "./state";
 import { way_out } from "./way_out";
 
 const PURPOSE = "This view draws a robot arm at its current position with the path of its tool, shows its job and its axes, and jogs it.";
@@ -34,7 +35,7 @@ function name_in(urdf: string): string {
 
 async function fetch_robots(board: string): Promise<Robots> {
   const called = (name: string) => get<Variables>(board_path(board, `/variables?values=false&match=*${name}`));
-  const found = await Promise.all([called("ROBOT_ARM"), called("ROBOT_SPACE"), called("ROBOT_PATH")]);
+  const found = await Promise.all(VARIABLES.map(called));
   const scopes = scopes_of(found.flatMap(({ variables }) => variables));
   try {
     const { robots } = await get<{ robots: Description[] }>(board_path(board, "/robots"));
@@ -105,6 +106,8 @@ interface Drawn {
   names: string[];
   kinds: string[];
   ahead?: { ways: Way[]; fastest: number };  // drawn last
+  carried?: Carried | null;
+  counts?: number[];
 }
 
 // Drawing needs far more code than the rest of the page: it is loaded when a robot is shown.
@@ -139,6 +142,10 @@ function has_zones({ zones = [], bodies = [], workspace = [] }: Description): bo
   return zones.length + bodies.length + workspace.length > 0;
 }
 
+function has_frames({ work_frames = [], belts = [], pallets = [] }: Description): boolean {
+  return work_frames.length + belts.length + pallets.length > 0;
+}
+
 // Converts degrees and millimetres of the robot task to radians and metres of URDF.
 function in_urdf(values: number[], kinds: string[]): number[] {
   return values.map((value, i) => (kinds[i] === "prismatic" ? value / 1000 : value * Math.PI / 180));
@@ -160,24 +167,48 @@ export function Robot() {
   const { box, drawn, names, problem } = useScene(robot);
   const [fastest, set_fastest] = useState(0);  // the end of the scale, which only grows while the robot moves
   const ahead = useRef<{ ways: Way[]; fastest: number }>({ ways: [], fastest: 0 });
+  const carried = useRef<Carried | null>(null);
+  const counts = useRef<number[]>([]);  // of places of pallets in use
   // The arm may be loaded later than the first of them arrive.
-  const draw_ways = () => {
+  const draw = () => {
     const now = drawn.current;
-    if (!now || now.ahead === ahead.current) return;
-    now.ahead = ahead.current;
-    now.scene.set_ways(now.ahead.ways, now.ahead.fastest);
+    if (now && now.ahead !== ahead.current) {
+      now.ahead = ahead.current;
+      now.scene.set_ways(now.ahead.ways, now.ahead.fastest);
+    }
+    if (now && carried.current && now.carried !== carried.current) {
+      now.carried = carried.current;
+      now.scene.carry(now.carried);
+    }
+    if (now && now.counts !== counts.current) {
+      now.counts = counts.current;
+      now.scene.use(now.counts);
+    }
   };
   const state = useRobotState(board?.board ?? "", found, ({ joint, position, tool }) => {
     const now = drawn.current;
-    draw_ways();
+    draw();
     if (now) now.scene.move(in_urdf(joint.length ? joint : [], now.kinds), position, tool);
   });
   useWays(board?.board ?? "", found, (ways) => {
     const most = ways.length ? end_of_scale(Math.max(...ways.flatMap(({ speeds }) => speeds))) : 0;
     ahead.current = { ways, fastest: ways.length ? Math.max(ahead.current.fastest, most) : 0 };
     set_fastest(ahead.current.fastest);
-    draw_ways();
+    draw();
   });
+  useCarried(board?.board ?? "", found, (now) => {
+    carried.current = now;
+    draw();
+  });
+  const used = useUsed(board?.board ?? "", robot, (now) => {
+    counts.current = now;
+    draw();
+  });
+  const [frames, set_frames] = useState(true);
+  const show_frames = (shown: boolean) => {
+    set_frames(shown);
+    drawn.current?.scene.show_frames(shown);
+  };
   const [zones, set_zones] = useState(true);
   const show_zones = (shown: boolean) => {
     set_zones(shown);
@@ -212,15 +243,19 @@ export function Robot() {
               <button type="button" aria-label="Zoom out" onClick={() => drawn.current?.scene.zoom(1.25)}>{"\u2212"}</button>
               <button type="button" onClick={() => drawn.current?.scene.clear_path()}>Clear path</button>
               {has_zones(robot) && <button type="button" aria-pressed={zones} onClick={() => show_zones(!zones)}>Zones</button>}
+              {has_frames(robot) && <button type="button" aria-pressed={frames} onClick={() => show_frames(!frames)}>Frames</button>}
             </div>
             {fastest > 0 && <p class="speeds">Planned path: 0 <span class="scale" style={{ background: SCALE_STYLE }} /> {fastest} mm/s</p>}
-            {robot.problem && <p class="warn">Zones are not shown: {robot.problem}</p>}
+            {(robot.pallets ?? []).map(({ name, places }, i) => (
+              <p key={name} class="quiet">Pallet {name}: {Number.isFinite(used[i]) ? `${used[i]} of ${places.length} places used` : `${places.length} places`}</p>))}
+            {robot.problem && <p class="warn">Not everything around the arm is shown: {robot.problem}</p>}
           </section>
         ) : (
           <p class="panel warn">{value.described ? "The arm's description (property urdf of its module) cannot be read, so only numbers are shown." : "This server does not provide the arm's description, so only numbers are shown."}</p>)}
         <div>
         {scope !== null && <Question board={board.board} scope={scope} down={down} may_answer={may_operate} />}
         {may_operate && scope !== null && <Jog board={board.board} scope={scope} state={state} down={down} names={names} work_frames={robot?.frames ?? []} />}
+        {may_operate && found?.guides && robot && <Guiding board={board.board} module={robot.module} scope={found.name} state={state} down={down} may_write={may_tune} />}
         {may_tune && scope !== null && robot && <Calibration board={board.board} module={robot.module} scope={scope} state={state} down={down} work_frames={robot.frames} />}
         <section class="panel" aria-label="Robot in numbers">
           <h2>{down ? "Last values" : "Current values"}</h2>

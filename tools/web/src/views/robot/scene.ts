@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arm in 3-D: floor, light, camera, zones, and the path of the tool that it has taken and will take (on the workpiece, if
+// The arm in 3-D: floor, light, camera, zones, frames, belts, and the path of the tool that it has taken and will take (on the workpiece, if
 // axes move that). It is drawn only after a change.
 
 import * as THREE from "three";
@@ -8,7 +8,8 @@ import type { Robot } from "../../api/types";
 import { colour } from "../../shell/theme";
 import { Ahead } from "./ahead";
 import { arm_of, type Arm } from "./arm";
-import type { Way } from "./state";
+import type { Carried, Way } from "./state";
+import { Surroundings } from "./surroundings";
 import { Zones } from "./zones";
 
 const PATH_POINTS = 3000;
@@ -29,6 +30,7 @@ export class Scene {
   private readonly path: THREE.Line;
   private readonly ahead = new Ahead();
   private zones: Zones | null = null;
+  private surroundings: Surroundings | null = null;
   private grid: THREE.GridHelper | null = null;
   private arm: Arm | null = null;
   private used = 0;
@@ -59,6 +61,7 @@ export class Scene {
     if (this.arm) this.scene.remove(this.arm.robot);
     this.arm = arm_of(robot.urdf, this.links, this.hubs);
     this.zones = new Zones(this.arm, robot);
+    this.surroundings = new Surroundings(this.arm, robot);
     this.scene.add(this.arm.robot);
     this.arm.base.add(this.path, this.ahead.group);
     this.clear_path();
@@ -97,6 +100,25 @@ export class Scene {
     this.draw();
   }
 
+  show_frames(shown: boolean): void {
+    this.surroundings?.show(shown);
+    this.renderer.domElement.dataset.frames = String(shown);
+    this.draw();
+  }
+
+  carry(carried: Carried): void {
+    const tracked = this.surroundings?.carry(carried) ?? false;
+    this.renderer.domElement.dataset.tracked = String(tracked);
+    this.draw();
+  }
+
+  // `used`: how many places of each pallet.
+  use(used: number[]): void {
+    this.surroundings?.use(used);
+    this.renderer.domElement.dataset.used = used.join();
+    this.draw();
+  }
+
   clear_path(): void {
     this.used = 0;
     this.path.geometry.setDrawRange(0, 0);
@@ -123,6 +145,7 @@ export class Scene {
     this.links.color.set(LINKS);
     this.hubs.color.set(HUBS);
     this.zones?.recolour();
+    this.surroundings?.recolour();
     (this.path.material as THREE.LineBasicMaterial).color.set(colour("c1"));
     if (this.grid) this.scene.remove(this.grid);
     this.grid = new THREE.GridHelper((this.arm?.size ?? 1) * 3, 24, colour("quiet"), colour("line"));

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// The enabling device of ROBOT_JOG, pressed by this page: the server releases it if it receives nothing from the page.
+
+import { board_path, message_of, post, post_without_answer } from "../../api/http";
+
+const RENEWALS = 3;  // within the time that the server waits for one
+
+// One press, until it is released or lost.
+export class Press {
+  private timer = 0;
+  private path = "";
+  private ended = false;
+
+  constructor(private readonly board: string, private readonly report: (problem: string) => void) {}
+
+  // `frame` "hand": a hand guides the robot, which needs no speed.
+  async begin(request: { robot: string; frame: string; speed?: number[] }): Promise<void> {
+    try {
+      const { jog, keep_ns } = await post<{ jog: string; keep_ns: number }>(board_path(this.board, "/jog"), request);
+      this.path = board_path(this.board, `/jog/${jog}`);
+      if (this.ended) return this.release();  // released before the answer arrived
+      this.timer = window.setInterval(() => void this.renew(), keep_ns / 1e6 / RENEWALS);
+      void this.renew();  // the server waits since its answer, which a busy browser may have received late
+    } catch (error) {
+      this.ended = true;
+      this.report(message_of(error));
+    }
+  }
+
+  private async renew(): Promise<void> {
+    try {
+      await post(`${this.path}/keep`, undefined);
+    } catch (error) {
+      if (!this.ended) this.report(message_of(error));
+      this.end();
+    }
+  }
+
+  end(): void {
+    if (this.ended) return;
+    this.ended = true;
+    clearInterval(this.timer);
+    if (this.path) this.release();
+  }
+
+  private release(): void {
+    post_without_answer(`${this.path}/end`);
+  }
+}
