@@ -19,7 +19,7 @@ import time
 import numpy
 
 PATIENCE_S = 120
-SPEED = "0.5"  # of virtual time, so that a busy machine does not miss the beat of the command
+SPEED = "0.25"  # of virtual time, so that a busy machine does not miss the beat of the command
 MANUAL = "{eMode: ROBOT_MODE_MANUAL, bEnable: 1}"
 HAND = "CONTACT::hand"
 
@@ -55,7 +55,7 @@ class Cell:
     def wait(condition, what):
         end = time.monotonic() + PATIENCE_S
         while not condition():
-            assert time.monotonic() < end, f"waited in vain for {what}"
+            assert time.monotonic() < end, f"waited in vain for {what() if callable(what) else what}"
             time.sleep(0.05)
 
     def begin(self, record):
@@ -174,10 +174,10 @@ def guide_along(cell):
     cell.wait(lambda: guide.said("push the arm"), "the begin")
     push(cell, (0, 40, 0), 80, 1)
     guide.press_enter()
-    cell.wait(lambda: guide.said("point 1 is marked"), "a mark by Enter")
+    cell.wait(lambda: guide.said("point 1 is marked"), lambda: f"a mark by Enter: {guide.lines}")
     push(cell, (-30, 25, 30), 60, 2)
     cell.set("PLC_ROBOT::ROBOT_GUIDE", "{nMark: 7}")
-    cell.wait(lambda: guide.said("point 2 is marked"), "a mark by the variable")
+    cell.wait(lambda: guide.said("point 2 is marked"), lambda: f"a mark by the variable: {guide.lines}")
     push(cell, (0, -40, 0), 50, 1)
     code, said = guide.end()
     assert code == 0, said

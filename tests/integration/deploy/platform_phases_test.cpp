@@ -174,7 +174,8 @@ TEST_F(PlatformPhases, At_any_moment) {
     const std::string common = common_release();
     EXPECT_THAT(common, AnyOf(kInstalled, "9.1"));
     if (common == "9.1") {
-      ASSERT_EQ(indurop({"platform", "back", "--health", "500ms"}).code, 0);
+      const Outcome back = indurop({"platform", "back", "--health", "500ms"});
+      ASSERT_EQ(back.code, 0) << back.err;
     }
   }
 }

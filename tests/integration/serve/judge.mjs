@@ -40,7 +40,7 @@ const queries = {valueHistory: "?name=gain&from_ns=1&to_ns=1800000000000000000"}
 const parts = {user: "ana", board, module: "modify", name: "knu::Robot::joints[1]"};
 // Orders to modules: the node of this test answers none, it has no tape and no functions, and
 // the server shows no plant, no PLC program and no robot with files. Names of recipes are no names of variables.
-const unanswered = new Set(["startModule", "stopModule", "restartModule", "schedule", "scope", "plant", "plantHistory", "plantDifference", "plantRollback", "beginJog", "keepJog", "endJog", "plc", "plcLive", "recording", "recordedValues", "recordedTick", "replayRecording", "recipe", "saveRecipe", "loadRecipe", "removeRecipe", "callFunction", "calibration", "takeCalibrationPoint", "dropCalibrationPoint", "acceptCalibration", "writeGuidedPath"]);
+const unanswered = new Set(["startModule", "stopModule", "restartModule", "schedule", "scope", "plant", "plantHistory", "plantDifference", "plantRollback", "beginJog", "keepJog", "endJog", "plc", "plcLive", "plcModel", "recording", "recordedValues", "recordedTick", "replayRecording", "recipe", "saveRecipe", "loadRecipe", "removeRecipe", "callFunction", "calibration", "takeCalibrationPoint", "dropCalibrationPoint", "acceptCalibration", "writeGuidedPath"]);
 const take_lease = async () => (await (await fetch(`${address}/api/v1/boards/${board}/force`, {
   method: "POST",
   headers: {Authorization: `Bearer ${token}`, "Content-Type": "application/json"},

@@ -98,6 +98,22 @@ class Expanded {
   std::map<std::string, std::size_t> found_;
 };
 
+// As a text; those of all other sections are "local".
+std::string section_of(const InstanceVariable& variable) {
+  switch (variable.section) {
+    case ast::Section::Input:
+      return "input";
+    case ast::Section::Output:
+      return "output";
+    case ast::Section::InOut:
+      return "in_out";
+    case ast::Section::External:
+      return "external";
+    default:
+      return "local";
+  }
+}
+
 TEST(PlcInstanceTypes, Values_are_where_the_module_writes_them) {
   const WatchPlan plan = plan_of(kPlant);
   ASSERT_TRUE(plan.ok) << base::to_text(plan.diagnostics);
@@ -123,12 +139,7 @@ TEST(PlcInstanceTypes, Variables_have_their_sections) {
   std::map<std::string, std::string> sections;  // of all types, by "type.variable"
   for (const InstanceType& type : sut.types) {
     for (const InstanceVariable& one : type.variables) {
-      const std::string section = one.section == ast::Section::Input      ? "input"
-                                  : one.section == ast::Section::Output   ? "output"
-                                  : one.section == ast::Section::InOut    ? "in_out"
-                                  : one.section == ast::Section::External ? "external"
-                                                                          : "local";
-      sections[type.name + "." + one.name] = section + (one.offset ? "" : " -") + (one.global ? " shared" : "");
+      sections[type.name + "." + one.name] = section_of(one) + (one.offset ? "" : " -") + (one.global ? " shared" : "");
     }
   }
   EXPECT_EQ(sections, (std::map<std::string, std::string>{
