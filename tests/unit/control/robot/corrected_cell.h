@@ -50,6 +50,19 @@ class CorrectedCell : public testing::Test {
     }
     return false;
   }
+  // 0: emergency stop, 1: fault of a drive, 2: disabled. It comes to rest within the limits.
+  void stop(int kind) {
+    cell->in.emergency = kind == 0;
+    if (kind == 1) {
+      cell->in.drives[0].status = Cell::kFault;
+    } else if (kind == 2) {
+      cell->ask(Service::GroupDisable);
+    }
+    for (int i = 0; i < 1000; ++i) {
+      step(kEmergency);
+    }
+    EXPECT_EQ(cell->out.tool_speed, 0);
+  }
   bool ended() const { return cell->out.done == cell->in.service.number; }
   bool resting() const { return cell->out.state == GroupState::Standby || cell->out.state == GroupState::ErrorStop; }
   double x() const { return cell->out.position[0]; }

@@ -265,16 +265,7 @@ TEST_F(Correction, Emergency_stops_keep_their_limits) {
     int count = 0;
     sensor = [&] { *values["DY"] = *values["DZ"] = ++count / 40 % 2 == 0 ? 30 : -30; };
     ASSERT_TRUE(follow([&] { return x() > 400 + 100 * at; }));
-    cell->in.emergency = at % 3 == 0;
-    if (at % 3 == 1) {
-      cell->in.drives[0].status = Cell::kFault;
-    } else if (at % 3 == 2) {
-      cell->ask(Service::GroupDisable);
-    }
-    for (int i = 0; i < 1000; ++i) {
-      step(kEmergency);
-    }
-    EXPECT_EQ(cell->out.tool_speed, 0);
+    stop(at % 3);
     EXPECT_LE(std::abs(y()), 30 + 5);
   }
 }

@@ -201,16 +201,7 @@ TEST_F(Press, Stops_of_all_kinds_keep_the_limits) {
     for (int i = 0; i < before; ++i) {
       step();
     }
-    cell->in.emergency = at % 3 == 0;
-    if (at % 3 == 1) {
-      cell->in.drives[0].status = Cell::kFault;
-    } else if (at % 3 == 2) {
-      cell->ask(Service::GroupDisable);
-    }
-    for (int i = 0; i < 1000; ++i) {
-      step(kEmergency);
-    }
-    EXPECT_EQ(cell->out.tool_speed, 0);
+    stop(at % 3);
     EXPECT_GE(z(), 1300 - 20 - 5);
   }
 }
