@@ -2,17 +2,15 @@
 // The PLC programs of all boards by the model of OPC 30000: those that `indurop serve --plc` was given and the board
 // runs. A plant without them has none of it.
 
-import { log, message_of } from "../log";
+import { log } from "../log";
 import { board_path, Refused, type ServeClient } from "../serve/http";
 import type { ModuleDescription, PlcDescription } from "../serve/types";
+import { Renewal } from "../space/renewal";
 import type { BoardTree, Space } from "../space/tree";
 import type { Local } from "./local";
 import { PlcModel } from "./model";
 import { PouTypes } from "./pou_types";
 import { Configuration } from "./resource";
-
-const RETRY_MS = 1000;  // at first, then twice as long each time
-const LONGEST_RETRY_MS = 60_000;
 
 interface Latest {
   tree: BoardTree;
@@ -28,9 +26,7 @@ interface Loaded {
 export class Programs {
   private readonly configurations = new Map<string, Configuration>();  // by board
   private readonly latest = new Map<string, Latest>();
-  private readonly turns = new Map<string, Promise<void>>();  // one at a time of each board
-  private readonly retries = new Map<string, NodeJS.Timeout>();
-  private readonly tries = new Map<string, number>();
+  private readonly renewal = new Renewal("PLC programs", (board) => this.show(board));
   private loading: Promise<Loaded> | undefined;
 
   constructor(private readonly client: ServeClient, private readonly space: Space, private readonly version: string) {}
@@ -52,8 +48,8 @@ export class Programs {
   // The board has these variables now.
   update(tree: BoardTree, here: boolean): Promise<void> {
     this.latest.set(tree.board, { tree, layout: tree.layout, here });
-    this.tries.delete(tree.board);
-    return this.renew(tree.board);
+    this.renewal.begin_again(tree.board);
+    return this.renewal.renew(tree.board);
   }
 
   sweep(): void {
@@ -61,25 +57,7 @@ export class Programs {
   }
 
   stop(): void {
-    for (const retry of this.retries.values()) clearTimeout(retry);
-  }
-
-  private renew(board: string): Promise<void> {
-    clearTimeout(this.retries.get(board));
-    this.retries.delete(board);
-    const turn = (this.turns.get(board) ?? Promise.resolve()).then(() => this.show(board)).catch((error) => {
-      log(`${board}: its PLC programs cannot be shown: ${message_of(error)}`);
-      this.try_again(board);
-    });
-    this.turns.set(board, turn);
-    return turn;
-  }
-
-  private try_again(board: string): void {
-    if (this.retries.has(board)) return;
-    const tries = this.tries.get(board) ?? 0;
-    this.tries.set(board, tries + 1);
-    this.retries.set(board, setTimeout(() => void this.renew(board), Math.min(RETRY_MS * 2 ** tries, LONGEST_RETRY_MS)));
+    this.renewal.stop();
   }
 
   private async show(board: string): Promise<void> {
@@ -89,8 +67,8 @@ export class Programs {
     const programs = here ? await this.programs_of(board, expected) : [];
     if (programs.length > 0 || (before && !before.is_empty)) await this.place(tree, layout, programs);
     // A program that is exchanged is not the one in the server's files until these are read again.
-    if (expected.some((name) => !programs.some(({ program }) => program === name))) this.try_again(board);
-    else this.tries.delete(board);
+    if (expected.some((name) => !programs.some(({ program }) => program === name))) this.renewal.try_again(board);
+    else this.renewal.begin_again(board);
   }
 
   private async place(tree: BoardTree, layout: string, programs: PlcDescription[]): Promise<void> {
@@ -106,7 +84,7 @@ export class Programs {
         configuration = new Configuration(this.space, model, types, board, this.version);
         this.configurations.set(board, configuration);
       }
-      configuration.update(programs, modules, tree, () => this.try_again(board));
+      configuration.update(programs, modules, tree, () => this.renewal.try_again(board));
     });
     if (configuration!.instances.too_many) log(`${board}: its PLC programs have more than 50000 variables and instances: not all are shown by the PLCopen model`);
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The robots of all boards by the model of OPC 40010-1. A plant without robots has none of it.
 
-import { log, message_of } from "../log";
 import { board_path, Refused, type ServeClient } from "../serve/http";
 import type { RobotDescription, VariableDescription } from "../serve/types";
+import { Renewal } from "../space/renewal";
 import type { BoardTree, Space } from "../space/tree";
 import type { Watched } from "../space/variable";
 import type { Shared } from "./branch";
@@ -11,9 +11,6 @@ import { Model } from "./model";
 import { describe, find_groups, type Group, type Robot } from "./robot";
 import { System } from "./system";
 import type { View } from "./view";
-
-const RETRY_MS = 1000;  // at first, then twice as long each time
-const LONGEST_RETRY_MS = 60_000;
 
 interface Latest {
   tree: BoardTree;
@@ -27,9 +24,7 @@ export class Robots {
   private readonly systems = new Map<string, System>();
   private readonly axes = new Map<string, number>();  // by board and robot, as they were last
   private readonly latest = new Map<string, Latest>();
-  private readonly turns = new Map<string, Promise<void>>();  // one at a time of each board
-  private readonly retries = new Map<string, NodeJS.Timeout>();
-  private readonly tries = new Map<string, number>();  // since the board's variables or its node have changed
+  private readonly renewal = new Renewal("robots", (board) => this.show(board));
   private model: Promise<Model> | undefined;
 
   constructor(private readonly client: ServeClient, private readonly space: Space, private readonly version: string) {}
@@ -43,37 +38,19 @@ export class Robots {
   async update(tree: BoardTree, list: VariableDescription[], here: boolean): Promise<string[]> {
     const { groups, notes } = find_groups(list);
     this.latest.set(tree.board, { tree, layout: tree.layout, groups, here });
-    this.tries.delete(tree.board);
-    if (groups.length > 0 || this.systems.has(tree.board)) await this.renew(tree.board);
+    this.renewal.begin_again(tree.board);
+    if (groups.length > 0 || this.systems.has(tree.board)) await this.renewal.renew(tree.board);
     return notes;
   }
 
   // The node of a board has started: the number of axes may be another.
   started(board: string): void {
-    this.tries.delete(board);
-    if (this.latest.get(board)?.groups.length) void this.renew(board);
+    this.renewal.begin_again(board);
+    if (this.latest.get(board)?.groups.length) void this.renewal.renew(board);
   }
 
   stop(): void {
-    for (const retry of this.retries.values()) clearTimeout(retry);
-  }
-
-  private renew(board: string): Promise<void> {
-    clearTimeout(this.retries.get(board));
-    this.retries.delete(board);
-    const turn = (this.turns.get(board) ?? Promise.resolve()).then(() => this.show(board)).catch((error) => {
-      log(`${board}: its robots cannot be shown: ${message_of(error)}`);
-      this.try_again(board);
-    });
-    this.turns.set(board, turn);
-    return turn;
-  }
-
-  private try_again(board: string): void {
-    const tries = this.tries.get(board) ?? 0;
-    this.tries.set(board, tries + 1);
-    clearTimeout(this.retries.get(board));
-    this.retries.set(board, setTimeout(() => void this.renew(board), Math.min(RETRY_MS * 2 ** tries, LONGEST_RETRY_MS)));
+    this.renewal.stop();
   }
 
   private async show(board: string): Promise<void> {
@@ -83,7 +60,7 @@ export class Robots {
     for (const group of groups) {
       const key = `${board}/${group.name}`;
       const now = await this.axes_of(board, group);
-      if (now === 0) this.try_again(board);  // its task has not run yet
+      if (now === 0) this.renewal.try_again(board);  // its task has not run yet
       const axes = Math.min(now || (this.axes.get(key) ?? 0), group.most_axes);
       this.axes.set(key, axes);
       if (axes > 0) robots.push(describe(group, axes, files));
