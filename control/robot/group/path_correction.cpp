@@ -95,17 +95,17 @@ LineLimits PathCorrection::limits_of(std::size_t direction) const noexcept {
   return limits;
 }
 
-// The way of the shift in one direction from here on. Further along the path, the joints can brake less than they could
-// when the shift began to move; it then brakes harder, with what is left of the reserve.
-Profile PathCorrection::way_of(std::size_t direction, bool moving) const noexcept {
+// The way of the shift in one direction to rest there, or where it can. Further along the path, the joints can brake
+// less than they could when the shift began to move; it then brakes harder, with what is left of the reserve.
+Profile PathCorrection::way_of(std::size_t direction, std::optional<double> to) const noexcept {
   const LineState& from = shift_[direction];
   const double most = kInside * way_.limit;
-  const double wanted = std::clamp(wanted_[static_cast<Eigen::Index>(direction)], -most, most);
+  const double place = std::clamp(to.value_or(0), -most, most);
   const LineLimits usual = limits_of(direction);
   Profile way;
   for (const double hardness : {1.0, 1.5, 2.5, 4.0}) {
     const LineLimits limits{usual.velocity, hardness * usual.acceleration, hardness * usual.jerk};
-    way = moving ? Profile::to_rest(from, wanted, limits) : Profile::to_velocity(from, 0, limits);
+    way = to ? Profile::to_rest(from, place, limits) : Profile::to_velocity(from, 0, limits);
     const auto [low, high] = way.extent();
     if (low >= -way_.limit && high <= way_.limit) {
       break;
@@ -132,15 +132,15 @@ Profile PathCorrection::way_of_press() noexcept {
   if (low >= -kInside * way_.limit && high <= kInside * way_.limit) {
     return way;
   }
-  wanted_[way_.pressed] = std::copysign(way_.limit, high > kInside * way_.limit ? 1.0 : -1.0);
-  return way_of(k, true);
+  return way_of(k, high > kInside * way_.limit ? way_.limit : -way_.limit);
 }
 
 // Each direction on its own, so that none of them ever exceeds the limit of the job.
 void PathCorrection::move() noexcept {
   const bool moving = !robot_.follower.at_rest();
   for (std::size_t k = 0; k < kDirections; ++k) {
-    const Profile way = presses() && static_cast<int>(k) == way_.pressed ? way_of_press() : way_of(k, moving);
+    const auto to = moving ? std::optional(wanted_[static_cast<Eigen::Index>(k)]) : std::nullopt;
+    const Profile way = static_cast<int>(k) == way_.pressed ? way_of_press() : way_of(k, to);
     LineState next = way.at(robot_.period);
     if (way.duration() <= robot_.period && way.end().velocity == 0) {
       next = {way.end().position, 0, 0};

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "control/robot/group/robot.h"
 #include "control/robot/job/motion_port.h"
@@ -57,7 +58,7 @@ class PathCorrection {
   [[nodiscard]] bool shifted() const noexcept;
   void measure(std::size_t direction, const Joints& q) noexcept;
   [[nodiscard]] LineLimits limits_of(std::size_t direction) const noexcept;
-  [[nodiscard]] Profile way_of(std::size_t direction, bool moving) const noexcept;
+  [[nodiscard]] Profile way_of(std::size_t direction, std::optional<double> to) const noexcept;
   [[nodiscard]] Profile way_of_press() noexcept;
   void move() noexcept;
   [[nodiscard]] Fault place(Joints& q) const noexcept;

@@ -3,7 +3,6 @@
 
 #include <indurop/robot/commands.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -44,8 +43,8 @@ void EachPeriodReader::press() {
   if (axis(press)) {
     axes(press);
   }
-  if (amount(press.most, {"MOST", {"N"}, 1e5, 1, kExample}) &&
-      amount(press.stiffness, {"STIFFNESS", {"N", "/", "mm"}, 1e5, 1000, kExample}) && limits(press, kExample)) {
+  if (amount(press.most, {"MOST", "N", 1e5, 1, kExample}) &&
+      amount(press.stiffness, {"STIFFNESS", "N/mm", 1e5, 1000, kExample}) && limits(press, kExample)) {
     age(press);
   }
   keep(press);
@@ -73,8 +72,8 @@ void EachPeriodReader::axes(JobCorrection& correction) {
 }
 
 bool EachPeriodReader::limits(JobCorrection& correction, const char* example) {
-  return amount(correction.limit, {"LIMIT", {"mm"}, 1000, 1e-3, example}) &&
-         amount(correction.rate, {"RATE", {"mm", "/", "s"}, 1000, 1e-3, example});
+  return amount(correction.limit, {"LIMIT", "mm", 1000, 1e-3, example}) &&
+         amount(correction.rate, {"RATE", "mm/s", 1000, 1e-3, example});
 }
 
 void EachPeriodReader::keep(const JobCorrection& correction) {
@@ -141,27 +140,23 @@ bool EachPeriodReader::amount(double& to, const Amount& wanted) {
   if (line_.failed()) {
     return false;
   }
-  std::string unit;
-  for (const char* token : wanted.unit) {
-    unit += token;
-  }
   if (!line_.accept(wanted.word)) {
-    line_.error(line_.peek(), std::string("expected ") + wanted.word + " and a number of " + unit + ", found " +
+    line_.error(line_.peek(), std::string("expected ") + wanted.word + " and a number of " + wanted.unit + ", found " +
                                   JobLine::shown(line_.peek()) + wanted.example);
     return false;
   }
   const JobToken number = line_.peek();
-  if (!line_.numbers(1, &to, unit.c_str())) {
+  if (!line_.numbers(1, &to, wanted.unit)) {
     return false;
   }
   if (!(to > 0 && to <= wanted.most)) {
     line_.error(number, std::string(wanted.word) + " is more than 0 and at most " +
-                            std::to_string(static_cast<int>(wanted.most)) + " " + unit);
+                            std::to_string(static_cast<int>(wanted.most)) + " " + wanted.unit);
     return false;
   }
   to *= wanted.to_si;
-  if (!std::all_of(wanted.unit.begin(), wanted.unit.end(), [&](const char* token) { return line_.accept(token); })) {
-    line_.error(line_.peek(), "expected " + unit + ", found " + JobLine::shown(line_.peek()));
+  if (!line_.accept_unit(wanted.unit)) {
+    line_.error(line_.peek(), std::string("expected ") + wanted.unit + ", found " + JobLine::shown(line_.peek()));
   }
   return !line_.failed();
 }

@@ -4,7 +4,6 @@
 
 #pragma once
 
-#include <initializer_list>
 #include <vector>
 
 #include "control/robot/job/statement.h"
@@ -25,7 +24,7 @@ class EachPeriodReader {
   // A word and a number above 0 with its unit, which is converted to m, N and s.
   struct Amount {
     const char* word = nullptr;
-    std::initializer_list<const char*> unit{};  // its tokens
+    const char* unit = nullptr;
     double most = 0;
     double to_si = 1;
     const char* example = nullptr;

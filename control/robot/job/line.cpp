@@ -27,6 +27,13 @@ bool JobLine::accept(std::string_view word) {
   return matches;
 }
 
+bool JobLine::accept_unit(std::string_view unit) {
+  const std::size_t sign = unit.find('/');
+  return sign == std::string_view::npos
+             ? accept(unit)
+             : accept(unit.substr(0, sign)) && accept("/") && accept_unit(unit.substr(sign + 1));
+}
+
 void JobLine::expect_end() {
   if (!at_end()) {
     error(peek(), "unexpected " + shown(peek()) + "; one statement per line");

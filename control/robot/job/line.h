@@ -37,6 +37,8 @@ class JobLine {
   JobToken take() { return at_end() ? tokens_[at_] : tokens_[at_++]; }
   // Takes the token if it is this word or sign.
   bool accept(std::string_view word);
+  // Takes the tokens of a unit, such as mm/s. Where it does not come next, some of them may have been taken.
+  bool accept_unit(std::string_view unit);
   void expect_end();
 
   // Returns whether so many numbers come next, with or without commas, and no other part of an expression after them.

@@ -249,9 +249,7 @@ bool MotionReader::read_speed(Step& step) {
     return in_range(step, kLeast, 1, number, "a speed is above 0 and at most 100 %");
   }
   // "mm/s" is a word followed by a sign that no other statement has.
-  const bool mm = line_.accept("mm");
-  const bool per_second = mm && line_.accept("/") && line_.accept("s");
-  if (!per_second) {
+  if (!line_.accept_unit("mm/s")) {
     line_.error(line_.peek(), "expected % or mm/s, found " + JobLine::shown(line_.peek()));
     return false;
   }

@@ -66,7 +66,7 @@ void PushReader::torque(JobPush& push) {
 }
 
 void PushReader::speed(JobPush& push) {
-  const char* const unit = slides(push) ? "mm" : "deg";
+  const char* const unit = slides(push) ? "mm/s" : "deg/s";
   if (!line_.accept("SPEED")) {
     line_.error(line_.peek(), "expected SPEED, which the axis does not exceed where nothing is in its way, found " +
                                   JobLine::shown(line_.peek()) + kExample);
@@ -78,8 +78,8 @@ void PushReader::speed(JobPush& push) {
   }
   if (!(push.way.speed >= 0.001)) {
     line_.error(number, "the speed of an axis that pushes is at least 0.001");
-  } else if (!(line_.accept(unit) && line_.accept("/") && line_.accept("s"))) {
-    line_.error(line_.peek(), std::string("expected ") + unit + "/s, found " + JobLine::shown(line_.peek()));
+  } else if (!line_.accept_unit(unit)) {
+    line_.error(line_.peek(), std::string("expected ") + unit + ", found " + JobLine::shown(line_.peek()));
   }
 }
 
@@ -87,15 +87,15 @@ void PushReader::ramp(JobPush& push) {
   if (!line_.accept("RAMP")) {
     return;
   }
-  const char* const unit = slides(push) ? "N" : "Nm";
+  const char* const unit = slides(push) ? "N/s" : "Nm/s";
   const JobToken number = line_.peek();
   if (!line_.numbers(1, &push.way.ramp, "how fast the torque grows")) {
     return;
   }
   if (!(push.way.ramp > 0)) {
     line_.error(number, "a torque grows by more than 0 in a second; without RAMP as fast as it may");
-  } else if (!(line_.accept(unit) && line_.accept("/") && line_.accept("s"))) {
-    line_.error(line_.peek(), std::string("expected ") + unit + "/s, found " + JobLine::shown(line_.peek()));
+  } else if (!line_.accept_unit(unit)) {
+    line_.error(line_.peek(), std::string("expected ") + unit + ", found " + JobLine::shown(line_.peek()));
   }
 }
 
