@@ -50,6 +50,10 @@ class Node:
         self.write("many.glb", "namespace many;\nstruct Pair {\n  double a;\n  uint64_t b;\n}\n" + "".join(f"Pair {one};\n" for one in names))
         self.write("many.cpp", CODE.format(writes="".join(
             f"  many::{one} = many::Pair{{static_cast<double>(number) * 0.37 + {i}, number ^ {i}U}};\n" for i, one in enumerate(names))))
+        self.compile()
+
+    def compile(self):
+        """many.glb and many.cpp as a module of 1 ms."""
         build = os.path.abspath(self.options.build)
         subprocess.run([self.tool("glb2idl"), "--out-dir", self.folder, self.path("many.glb")], check=True)
         subprocess.run(["g++", "-std=c++20", "-O1", "-fPIC", "-shared", "-fno-gnu-unique", f"-isystem{build}/include", f"-isystem{self.folder}",

@@ -62,7 +62,7 @@ class Setting:
         for child in self.children.values():
             child.kill()
             child.wait()
-        for name in ("a", "b"):
+        for name in ("a", "b", "c"):
             subprocess.run([self.programs / "indurop", "clean", "--node", self.node(name)], capture_output=True,
                            check=False, env=self.environment)
         if kind:
@@ -85,7 +85,7 @@ class Setting:
         self.start(key, self.commands[key])
 
     def configuration(self, modules):
-        text = "".join(f"<module><filename>{self.build}/{file}</filename><moduletype>process</moduletype>"
+        text = "".join(f"<module><filename>{self.build / file}</filename><moduletype>process</moduletype>"
                        f"<operationtype>periodic</operationtype><period>{period}</period><priority>{number + 1}</priority>"
                        "<restart delay=\"10ms\" max=\"1000\"/></module>" for number, (file, period) in enumerate(modules))
         file = self.folder / (modules[0][0] + ".xml")

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the age of each image to a file for each pool, in ns, as soon as it is there.
+// Writes the age of each image to a file for each pool, in ns, as soon as it is there: ages-POOL-PROGRAM, so a
+// copy of the program is another reader.
 
 #include <indurop/generated.h>
 #include <indurop/indurop.h>
 
+#include <cerrno>
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
@@ -15,7 +17,10 @@ namespace {
 
 std::FILE* file_of(const char* pool) {
   const char* const folder = std::getenv("POOLS_TEST_FOLDER");
-  return std::fopen((std::string(folder == nullptr ? "/tmp" : folder) + "/ages-" + pool).c_str(), "w");
+  return std::fopen(
+      (std::string(folder == nullptr ? "/tmp" : folder) + "/ages-" + pool + "-" + program_invocation_short_name)
+          .c_str(),
+      "w");
 }
 
 template <class Pool>
