@@ -16,7 +16,7 @@
 namespace indurop::config {
 
 // ModbusServer: other devices poll this node, an operator panel for example.
-enum class IoDriver { ModbusTcp, ModbusRtu, ModbusServer, Cia402, Ethercat, Csv };
+enum class IoDriver { ModbusTcp, ModbusRtu, ModbusServer, Cia402, Ethercat, Csv, Opcua };
 // Its points are objects of a drive, by name, or the fields of a struct.
 constexpr bool has_objects(IoDriver driver) noexcept {
   return driver == IoDriver::Cia402 || driver == IoDriver::Ethercat;
@@ -63,7 +63,7 @@ constexpr bool is_same(const IoObject& a, const IoObject& b) noexcept {
 struct IoPoint {
   bool output = false;   // true: from variable to device
   std::string variable;  // as written in the file
-  std::string at;        // as written in the file; csv: column, cia402 and ethercat: object
+  std::string at;        // as written in the file; csv: column, cia402 and ethercat: object, opcua: NodeId
   IoAddress address;     // Modbus
   IoObject object;       // EtherCAT
   int unit = 1;          // Modbus: unit on the line or after the gateway
@@ -182,10 +182,18 @@ struct IoCsv {
   bool loop = false;  // at the end of the file: restart at the first row; false: hold the last row
 };
 
+// How a server of OPC UA is reached. The protocol is spoken by `indurop-opcua --client`.
+struct IoOpcua {
+  enum class Security { Encrypt, Sign, None };
+  Security security = Security::Encrypt;
+  std::string user;    // empty: anonymous
+  std::string socket;  // of that program; empty: the one that it has by default
+};
+
 struct IoDevice {
   std::string name;
   IoDriver driver = IoDriver::ModbusTcp;
-  std::string address;  // host or serial port; ModbusServer: listening address
+  std::string address;  // host or serial port; ModbusServer: listening address; Opcua: URL of the server
   std::uint16_t port = 502;
   int unit = 1;  // default of points without their own
   base::Nanos cycle{10'000'000};
@@ -200,6 +208,7 @@ struct IoDevice {
   IoAxis axis;
   IoSlave slave;
   IoCsv csv;
+  IoOpcua opcua;
   std::string quality;  // variables about the device as a whole; empty: none
   std::string errors;
   std::string cut;           // Ethercat on a ring

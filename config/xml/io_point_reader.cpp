@@ -10,6 +10,7 @@
 #include "config/xml/attributes.h"
 #include "config/xml/element_rules.h"
 #include "config/xml/io_object_reader.h"
+#include "config/xml/io_opcua_reader.h"
 #include "config/xml/values.h"
 #include "core/base/duration.h"
 #include "core/base/text.h"
@@ -51,13 +52,16 @@ class PointReader {
       case IoDriver::Csv:
         read_column();
         break;
+      case IoDriver::Opcua:
+        read_io_node(attributes_, point_, report_);
+        break;
     }
     read_scaling();
     read_quality();
     if (is_leaf(element_, report_)) {
       check_no_text(element_, report_);
     }
-    attributes_.finish(fmt::format("<{}> of a {} device", element_.name, name_of(device_.driver)));
+    attributes_.finish(fmt::format("<{}> of driver {}", element_.name, name_of(device_.driver)));
     return std::move(point_);
   }
 
@@ -263,6 +267,8 @@ const char* name_of(IoDriver driver) noexcept {
       return "ethercat";
     case IoDriver::Csv:
       return "csv";
+    case IoDriver::Opcua:
+      return "opcua";
   }
   return "";
 }
@@ -338,11 +344,13 @@ void check_io_points(const IoDevice& device, base::Diagnostics& report) {
   if (device.driver == IoDriver::Csv) {
     return;
   }
-  if (has_objects(device.driver)) {
+  if (has_objects(device.driver) || device.driver == IoDriver::Opcua) {
     std::map<std::string, const IoPoint*> outputs;
     for (const IoPoint& point : device.points) {
-      const auto [first, is_new] = outputs.try_emplace(point.output ? point.at : "", &point);
-      if (point.output && !is_new) {
+      if (!point.output || point.at.empty()) {
+        continue;
+      }
+      if (const auto [first, is_new] = outputs.try_emplace(point.at, &point); !is_new) {
         report.error(point.at_place, fmt::format("{} is written by the output in line {} already; one object has one "
                                                  "output",
                                                  base::in_quotes(point.at), first->second->place.line));

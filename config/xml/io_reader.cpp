@@ -13,7 +13,9 @@
 #include "config/xml/document.h"
 #include "config/xml/element_rules.h"
 #include "config/xml/io_copy_reader.h"
+#include "config/xml/io_homing_reader.h"
 #include "config/xml/io_object_reader.h"
+#include "config/xml/io_opcua_reader.h"
 #include "config/xml/io_point_reader.h"
 #include "config/xml/io_simulation_reader.h"
 #include "config/xml/values.h"
@@ -23,9 +25,11 @@ namespace indurop::config {
 namespace {
 
 constexpr DocumentKind kIoConfigXml{"ioconfig.xml", "<ioconfig> with one <device> per field device"};
-constexpr std::array<IoDriver, 6> kDrivers{IoDriver::ModbusTcp, IoDriver::ModbusRtu, IoDriver::ModbusServer,
-                                           IoDriver::Cia402,    IoDriver::Ethercat,  IoDriver::Csv};
+constexpr std::array<IoDriver, 7> kDrivers{IoDriver::ModbusTcp, IoDriver::ModbusRtu, IoDriver::ModbusServer,
+                                           IoDriver::Cia402,    IoDriver::Ethercat,  IoDriver::Csv,
+                                           IoDriver::Opcua};
 constexpr base::Nanos kMillisecond{1'000'000};
+constexpr base::Nanos kOpcuaCycle{100 * kMillisecond};
 constexpr base::Nanos kMinCycle{50'000};
 constexpr base::Nanos kMaxSlaveCycle{50 * kMillisecond};  // half of the time in which slaves miss their master
 constexpr base::Nanos kSecond{1'000'000'000};
@@ -71,6 +75,11 @@ class DeviceReader {
       case IoDriver::Csv:
         read_csv();
         break;
+      case IoDriver::Opcua:
+        device_.cycle = kOpcuaCycle;
+        read_times();
+        read_io_server(attributes_, device_, report_);
+        break;
     }
     attributes_.finish(fmt::format("<device driver=\"{}\">", name_of(device_.driver)));
     check_no_text(element_, report_);
@@ -109,16 +118,21 @@ class DeviceReader {
 
   void read_exchange() {
     constexpr std::int64_t kMaxGap = 100;
-    constexpr base::Nanos kMaxTimeout = 2 * kSecond;  // the node waits at most 3 s for its modules to stop
     device_.unit = read_unit(attributes_, device_.driver).value_or(device_.unit);
     device_.gap = static_cast<int>(attributes_.integer("gap", 0, kMaxGap).value_or(0));
+    device_.together = attributes_.choose("together", {"off", "on"}).value_or(0) == 1;
+    read_times();
+  }
+
+  // Of a device that is asked for its values.
+  void read_times() {
+    constexpr base::Nanos kMaxTimeout = 2 * kSecond;  // the node waits at most 3 s for its modules to stop
     device_.cycle = attributes_.duration("cycle", kMillisecond, kMinute).value_or(device_.cycle);
     device_.timeout = attributes_.duration("timeout", kMillisecond, kMaxTimeout).value_or(device_.timeout);
     device_.retry = attributes_.duration("retry", kMillisecond, kMinute).value_or(device_.retry);
     device_.retry_max = attributes_.duration("retry_most", device_.retry, 60 * kMinute)
                             .value_or(std::max(device_.retry, device_.retry_max));
     device_.watchdog = attributes_.duration("watchdog", kMillisecond, kMinute).value_or(device_.watchdog);
-    device_.together = attributes_.choose("together", {"off", "on"}).value_or(0) == 1;
   }
 
   void read_server() {
@@ -253,36 +267,10 @@ class DeviceReader {
     axis.home_to = attributes_.real("home_to", -kMaxAngle, kMaxAngle);
     axis.probe = attributes_.real("probe", -kMaxAngle, kMaxAngle);
     axis.probe2 = attributes_.real("probe2", -kMaxAngle, kMaxAngle);
-    read_homing(axis);
+    read_io_homing(attributes_, device_, report_);
     real("noise", 0, kMaxReal, axis.noise);
     axis.seed = static_cast<std::uint64_t>(
         attributes_.integer("seed", 0, std::numeric_limits<std::int64_t>::max()).value_or(1));
-  }
-
-  void read_homing(IoAxis& axis) {
-    constexpr int kMaxMethod = 37;
-    const auto method = attributes_.integer("homing", 1, kMaxMethod);
-    if (!method) {
-      return;
-    }
-    axis.homing = static_cast<int>(*method);
-    // IEC 61800-7-201: 15, 16, 31 and 32 are reserved, 36 is not in use; 17 to 30 are 1 to 14 without the mark.
-    constexpr int kLastWithMark = 14;
-    constexpr int kFirstWithout = 17;
-    constexpr int kLastWithout = 30;
-    const int m = *axis.homing;
-    const bool reserved = (m > kLastWithMark && m < kFirstWithout) || m == 31 || m == 32 || m == 36;
-    const int edge = m >= kFirstWithout && m <= kLastWithout ? m - kFirstWithout + 1 : m;
-    if (reserved) {
-      report_.error(device_.place,
-                    fmt::format("homing: there is no method {}; write 1 to 14, 17 to 30, 33 to 35 or 37", m));
-    } else if ((edge == 1 && !axis.low_limit) || (edge == 2 && !axis.high_limit)) {
-      report_.error(device_.place, fmt::format("homing: method {} needs a limit switch; give {}", m,
-                                               edge == 1 ? "low_limit" : "high_limit"));
-    } else if (edge > 2 && edge <= kLastWithMark && !axis.home_from && !axis.home_to) {
-      report_.error(device_.place,
-                    fmt::format("homing: method {} needs a home switch; give home_from, home_to or both", m));
-    }
   }
 
   void read_csv() {
@@ -303,6 +291,9 @@ class DeviceReader {
 const char* example_points(IoDriver driver) {
   if (has_objects(driver)) {
     return R"(in="AXIS1_IN" and out="AXIS1_OUT", or <input>s and <output>s)";
+  }
+  if (driver == IoDriver::Opcua) {
+    return R"(<input variable="..." at="ns=2;s=Temperature"/>)";
   }
   return is_modbus(driver) ? R"(<input variable="..." at="holding:0"/>)" : R"(<input variable="..." at="column"/>)";
 }

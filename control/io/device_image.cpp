@@ -83,10 +83,14 @@ void DeviceImage::judge(Outcome outcome) noexcept {
     return;
   }
   ++image_.errors;
-  const auto is_lost = [](const Sample& s) { return s.quality == Quality::Lost; };
-  const bool lost = outcome == Outcome::Lost || std::any_of(input_samples_.begin(), input_samples_.end(), is_lost) ||
-                    std::any_of(output_samples_.begin(), output_samples_.end(), is_lost);
-  image_.device = lost ? Quality::Lost : Quality::Refused;
+  const auto any = [this](Quality quality) {
+    const auto has = [quality](const Sample& sample) { return sample.quality == quality; };
+    return std::any_of(input_samples_.begin(), input_samples_.end(), has) ||
+           std::any_of(output_samples_.begin(), output_samples_.end(), has);
+  };
+  const bool lost = outcome == Outcome::Lost || any(Quality::Lost);
+  const bool reported = !any(Quality::Refused) && any(Quality::Reported);
+  image_.device = lost ? Quality::Lost : reported ? Quality::Reported : Quality::Refused;
 }
 
 Outcome DeviceImage::exchange(Driver& driver, const OutputImage& outputs, Outputs how,

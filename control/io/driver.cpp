@@ -9,6 +9,7 @@
 #include "control/io/ethercat_driver.h"
 #include "control/io/modbus_driver.h"
 #include "control/io/modbus_server.h"
+#include "control/io/opcua_driver.h"
 
 namespace indurop::io {
 
@@ -56,6 +57,8 @@ Result<std::unique_ptr<Driver>, std::vector<base::Diagnostic>> make_driver(const
       return std::unique_ptr<Driver>(
           std::make_unique<EthercatDriver>(device, outputs, inputs, std::move(*excludes), bus));
     }
+    case config::IoDriver::Opcua:
+      return std::unique_ptr<Driver>(std::make_unique<OpcuaDriver>(device, outputs, inputs));
     case config::IoDriver::Csv:
       break;
   }

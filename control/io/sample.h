@@ -15,7 +15,8 @@ enum class Quality : std::uint8_t {
   Refused = 3,  // the device answered that it does not have this point
   OutOfRange =
       4,  // the variable (an output: the wire) cannot hold the value; it has its nearest one; or it is NaN or Inf
-  NotRefreshed = 5  // an output that is no longer sent, because the tick has stopped
+  NotRefreshed = 5,  // an output that is no longer sent, because the tick has stopped
+  Reported = 6       // the device itself reports that the value is bad or uncertain
 };
 
 // Can hold every 64-bit integer and every double.

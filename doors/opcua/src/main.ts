@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// indurop-opcua: the boards of an `indurop serve` over OPC UA. Begin reading here: options, the server, the boards, clients.
+// indurop-opcua: the boards of an `indurop serve` over OPC UA; with --client, other servers for I/O modules. Begin reading here: options, the server, the boards, clients.
 
 import type { Namespace } from "node-opcua";
 
+import { run_client } from "./client/client";
 import { log, message_of, take_messages } from "./log";
-import { read_options, UsageError, type Options } from "./options";
+import { read_options, UsageError, type ClientOptions, type Options } from "./options";
 import { Programs } from "./plc/programs";
 import { Robots } from "./robotics/robots";
 import { read_token, ServeClient } from "./serve/http";
@@ -76,7 +77,7 @@ async function run(options: Options): Promise<void> {
 }
 
 async function main(): Promise<void> {
-  let options: Options | string;
+  let options: Options | ClientOptions | string;
   try {
     options = read_options(process.argv.slice(2));
   } catch (error) {
@@ -92,7 +93,7 @@ async function main(): Promise<void> {
   process.on("uncaughtException", (error) => log(`a message was not understood: ${error.message}`));
   process.on("unhandledRejection", (error) => log(`a message was not understood: ${message_of(error)}`));
   take_messages();
-  await run(options);
+  await ("socket" in options ? run_client(options) : run(options));
 }
 
 main().catch((error) => {

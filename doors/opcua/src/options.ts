@@ -28,13 +28,20 @@ export interface Options {
   check: boolean;
 }
 
+// Of --client.
+export interface ClientOptions {
+  socket: string;
+  password_file: string;
+  state: string;
+}
+
 const DEFAULT_SERVE = "http://127.0.0.1:8080";
 const RATE_HZ = { usual: 10, least: 0.1, highest: 100 };
 const HIGHEST_PORT = 65535;
 
 export const HELP = `Usage: indurop-opcua [OPTIONS]
 
-Shows the boards of an \`indurop serve\` over OPC UA.
+Shows the boards of an \`indurop serve\` over OPC UA, or reads and writes other servers for their I/O (--client).
 
   --serve URL          The server; default ${DEFAULT_SERVE}
   --serve-ca FILE      Authority of that server's certificate (https)
@@ -51,6 +58,10 @@ Shows the boards of an \`indurop serve\` over OPC UA.
   --sessions NUMBER    Sessions at a time; default 32
   --items NUMBER       Monitored items of all clients together; default 60000
   --state FOLDER       Certificates; default \$INDUROP_STATE_DIR/opcua
+  --client             Connect the devices of driver opcua in ioconfig.xml with their servers
+  --socket PATH        Of --client: where I/O modules reach it; default \$XDG_RUNTIME_DIR/indurop-opcua.sock, else
+                       /run/indurop/opcua.sock
+  --password-file FILE  Of --client: lines \`USER PASSWORD\`, for devices that name a user
   --check              List what is shown and what a type cannot show, then exit
   --version            Print the version
   -h, --help           Print this help
@@ -95,8 +106,12 @@ function check_pairs(options: Options): void {
   }
 }
 
+function default_socket(): string {
+  return process.env.XDG_RUNTIME_DIR ? join(process.env.XDG_RUNTIME_DIR, "indurop-opcua.sock") : "/run/indurop/opcua.sock";
+}
+
 // Returns the options, or the text that was requested instead (help, version). Throws UsageError.
-export function read_options(words: string[]): Options | string {
+export function read_options(words: string[]): Options | ClientOptions | string {
   const text = { type: "string" } as const;
   const flag = { type: "boolean" } as const;
   let values;
@@ -107,7 +122,7 @@ export function read_options(words: string[]): Options | string {
         serve: { ...text, default: DEFAULT_SERVE }, "serve-ca": text, "token-file": text, bind: { ...text, default: "127.0.0.1" },
         port: { ...text, default: "4840" }, host: { ...text, multiple: true }, cert: text, key: text, ca: text, revoked: text,
         anonymous: flag, rate: { ...text, default: `${RATE_HZ.usual}` }, sessions: { ...text, default: "32" },
-        items: { ...text, default: "60000" }, state: text, check: flag, version: flag, help: { ...flag, short: "h" },
+        items: { ...text, default: "60000" }, state: text, client: flag, socket: text, "password-file": text, check: flag, version: flag, help: { ...flag, short: "h" },
       },
     }));
   } catch (error) {
@@ -115,6 +130,9 @@ export function read_options(words: string[]): Options | string {
   }
   if (values.help) return HELP;
   if (values.version) return `indurop-opcua ${VERSION}\n`;
+  const state = values.state ?? state_folder();
+  if (values.client) return { socket: values.socket ?? default_socket(), password_file: values["password-file"] ?? "", state };
+  if (values.socket !== undefined || values["password-file"] !== undefined) throw new UsageError("--socket and --password-file belong to --client");
   const options: Options = {
     serve: url_of(values.serve!),
     serve_ca: values["serve-ca"] ?? "",
@@ -130,7 +148,7 @@ export function read_options(words: string[]): Options | string {
     rate_hz: number_of("rate", values.rate!, RATE_HZ.least, RATE_HZ.highest),
     sessions: whole_of("sessions", values.sessions!, 1, 1000),
     items: whole_of("items", values.items!, 1, 1_000_000),
-    state: values.state ?? state_folder(),
+    state,
     check: values.check ?? false,
   };
   check_pairs(options);
