@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/archives/archive.h"
 #include "core/base/json.h"
 #include "core/base/read_file.h"
 #include "core/keys/digest.h"
-#include "deploy/bundle/archive.h"
 #include "deploy/bundle/bundle.h"
 #include "deploy/bundle/members.h"
 
@@ -30,7 +30,7 @@ constexpr std::size_t kMaxTextBytes = std::size_t{64} << 20U;  // of package.jso
 constexpr std::string_view kZstdBegin = "\x28\xB5\x2F\xFD";
 
 // The file that is read, for messages.
-class BundleReader : public ArchiveReader {
+class BundleReader : public archives::ArchiveReader {
  public:
   explicit BundleReader(std::filesystem::path file) : file_(std::move(file)) {}
   [[nodiscard]] Problem problem(std::string_view what) const { return {fmt::format("{}: {}", file_.string(), what)}; }

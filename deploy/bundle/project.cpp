@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "core/archives/archive.h"
 #include "core/base/file_problem.h"
 #include "core/base/read_file.h"
-#include "deploy/bundle/archive.h"
 #include "deploy/transaction/package.h"
 
 namespace indurop::deploy {
@@ -31,7 +31,7 @@ Problem damaged(const std::filesystem::path& archive) {
 
 Result<void, Problem> write_project(const base::Json& about, const std::vector<ProjectFile>& files,
                                     const std::filesystem::path& archive) {
-  ArchiveWriter out;
+  archives::ArchiveWriter out;
   bool written = out.open(archive) && out.text(kAboutMember, about.dump());
   for (const ProjectFile& file : files) {
     const auto text = base::read_file(file.source, kMaxFileBytes);
@@ -48,7 +48,7 @@ Result<void, Problem> write_project(const base::Json& about, const std::vector<P
 
 Result<OpenedProject, Problem> open_project(const std::filesystem::path& archive, const std::filesystem::path& folder) {
   using std::filesystem::perms;
-  ArchiveReader in;
+  archives::ArchiveReader in;
   const auto about = in.open(archive) ? in.text(kAboutMember, kMaxAboutBytes) : std::nullopt;
   auto json = about ? base::Json::parse(*about) : std::nullopt;
   if (!json) {

@@ -12,12 +12,12 @@
 #include <string_view>
 #include <utility>
 
+#include "core/archives/archive.h"
 #include "core/base/file_problem.h"
 #include "core/base/json.h"
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 #include "core/keys/digest.h"
-#include "deploy/bundle/archive.h"
 #include "deploy/bundle/bundle.h"
 #include "deploy/bundle/members.h"
 
@@ -29,7 +29,8 @@ using base::Problem;
 constexpr std::size_t kPortion = std::size_t{1} << 18U;
 
 // Copies a file of the package into the bundle. The problem is empty if the bundle could not be written.
-Result<void, Problem> add_file(ArchiveWriter& bundle, const PackageFile& file, const std::filesystem::path& source) {
+Result<void, Problem> add_file(archives::ArchiveWriter& bundle, const PackageFile& file,
+                               const std::filesystem::path& source) {
   const Problem changed{fmt::format("{} has changed while it was packed; pack again", source.string())};
   const auto opened = base::open_file(source);
   if (!opened) {
@@ -59,7 +60,7 @@ Result<void, Problem> add_file(ArchiveWriter& bundle, const PackageFile& file, c
   return digest.finish() == file.digest ? Result<void, Problem>() : changed;
 }
 
-Result<void, Problem> write_members(ArchiveWriter& bundle, const PackedPlant& packed,
+Result<void, Problem> write_members(archives::ArchiveWriter& bundle, const PackedPlant& packed,
                                     const BundleSignature& signature) {
   const base::Json about{{"indurop_bundle", kBundleFormat},
                          {"deployment", packed.id},
@@ -85,7 +86,7 @@ Result<void, Problem> write_members(ArchiveWriter& bundle, const PackedPlant& pa
 Result<void, Problem> write_bundle(const PackedPlant& packed, const BundleSignature& signature,
                                    const std::filesystem::path& file) {
   const std::filesystem::path unfinished = file.string() + ".part";
-  ArchiveWriter bundle;
+  archives::ArchiveWriter bundle;
   Result<void, Problem> result = Problem{};
   if (bundle.open(unfinished)) {
     result = write_members(bundle, packed, signature);

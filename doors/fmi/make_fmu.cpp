@@ -9,10 +9,10 @@
 #include <optional>
 #include <utility>
 
+#include "core/archives/archive.h"
 #include "core/base/program_folder.h"
 #include "core/base/read_file.h"
 #include "core/keys/digest.h"
-#include "deploy/bundle/archive.h"
 #include "deploy/transaction/package.h"
 #include "doors/fmi/contents/contents.h"
 #include "doors/fmi/description/description.h"
@@ -76,7 +76,7 @@ std::string token_of(const std::string& text) {
                      digest.substr(16, 4), digest.substr(20, 12));
 }
 
-Result<void, Problem> add_file(deploy::ArchiveWriter& archive, const std::string& member, const fs::path& source,
+Result<void, Problem> add_file(archives::ArchiveWriter& archive, const std::string& member, const fs::path& source,
                                bool executable) {
   const auto bytes = base::read_file(source, kMostBytes);
   if (!bytes) {
@@ -92,7 +92,7 @@ struct Members {
   std::string library_member;
 };
 
-Result<void, Problem> write_members(deploy::ArchiveWriter& archive, const Members& members,
+Result<void, Problem> write_members(archives::ArchiveWriter& archive, const Members& members,
                                     const deploy::PackedPlant& packed) {
   if (!archive.text("modelDescription.xml", members.description) ||
       !archive.text(fmt::format("resources/{}", kContentsName), members.contents)) {
@@ -112,9 +112,10 @@ Result<void, Problem> write_members(deploy::ArchiveWriter& archive, const Member
 
 Result<void, Problem> write_archive(const Members& members, const deploy::PackedPlant& packed, const fs::path& output) {
   const fs::path unfinished = output.string() + ".part";
-  deploy::ArchiveWriter archive;
-  auto result = archive.open(unfinished, deploy::ArchiveForm::Zip) ? write_members(archive, members, packed)
-                                                                   : Result<void, Problem>(Problem{archive.message()});
+  archives::ArchiveWriter archive;
+  auto result = archive.open(unfinished, archives::ArchiveForm::Zip)
+                    ? write_members(archive, members, packed)
+                    : Result<void, Problem>(Problem{archive.message()});
   std::error_code error;
   if (result) {
     fs::rename(unfinished, output, error);

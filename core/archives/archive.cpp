@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/bundle/archive.h"
+#include "core/archives/archive.h"
 
 #include <archive.h>
 #include <archive_entry.h>
 
 #include <vector>
 
-namespace indurop::deploy {
+namespace indurop::archives {
 namespace {
 
 constexpr std::size_t kPortionBytes = std::size_t{1} << 18U;
@@ -52,10 +52,11 @@ std::string ArchiveWriter::message() const {
 
 ArchiveReader::ArchiveReader() : archive_(::archive_read_new(), &::archive_read_free) {}
 
-bool ArchiveReader::open(const std::filesystem::path& file) {
-  return ::archive_read_support_format_tar(archive_.get()) == ARCHIVE_OK &&
-         ::archive_read_support_filter_zstd(archive_.get()) == ARCHIVE_OK &&
-         ::archive_read_open_filename(archive_.get(), file.c_str(), kPortionBytes) == ARCHIVE_OK;
+bool ArchiveReader::open(const std::filesystem::path& file, ArchiveForm form) {
+  const bool has_form = form == ArchiveForm::Zip ? ::archive_read_support_format_zip(archive_.get()) == ARCHIVE_OK
+                                                 : ::archive_read_support_format_tar(archive_.get()) == ARCHIVE_OK &&
+                                                       ::archive_read_support_filter_zstd(archive_.get()) == ARCHIVE_OK;
+  return has_form && ::archive_read_open_filename(archive_.get(), file.c_str(), kPortionBytes) == ARCHIVE_OK;
 }
 
 bool ArchiveReader::next() {
@@ -101,4 +102,4 @@ std::optional<std::string> ArchiveReader::text(const std::string& member, std::u
   return whole ? std::optional(std::move(text)) : std::nullopt;
 }
 
-}  // namespace indurop::deploy
+}  // namespace indurop::archives

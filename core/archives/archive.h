@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Archives with libarchive: written with the same bytes for the same content, as tar with zstd or as ZIP for other
-// programs; tar with zstd is read, from anybody.
+// programs. Both are read, from anybody.
 
 #pragma once
 
@@ -15,7 +15,7 @@
 struct archive;
 struct archive_entry;
 
-namespace indurop::deploy {
+namespace indurop::archives {
 
 enum class ArchiveForm { TarZstd, Zip };
 
@@ -38,7 +38,7 @@ class ArchiveWriter {
 class ArchiveReader {
  public:
   ArchiveReader();
-  bool open(const std::filesystem::path& file);
+  bool open(const std::filesystem::path& file, ArchiveForm form = ArchiveForm::TarZstd);
   // Goes to the next member. Returns false at the end and after an error.
   bool next();
   [[nodiscard]] bool failed() const noexcept { return failed_; }
@@ -59,4 +59,4 @@ class ArchiveReader {
   bool failed_ = false;
 };
 
-}  // namespace indurop::deploy
+}  // namespace indurop::archives
