@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "config/check/check_parts.h"
+#include "config/check/io_access.h"
 #include "core/base/nearest.h"
 #include "core/base/text.h"
 
@@ -257,6 +258,18 @@ void check_functions(CheckContext& context) {
   }
 }
 
+// Variables that the module's ioconfig.xml declares, for FMUs.
+void declare_io_variables(ModuleFacts& facts, const Module& module, const std::filesystem::path& folder) {
+  const schema::Schema declared = io_variables_of(module, folder);
+  if (declared.variables.empty()) {
+    return;
+  }
+  schema::Schema all = *facts.schema;
+  std::vector<std::string> differences;  // reported as those of two modules are
+  schema::merge(all, declared, differences);
+  facts.schema = std::make_shared<schema::Schema>(std::move(all));
+}
+
 }  // namespace
 
 std::string unreadable_file(const Error& failure, const NamedFile& file, bool search) {
@@ -286,7 +299,11 @@ void check_files(CheckContext& context) {
   const auto& modules = context.config.modules;
   context.result.facts.resize(modules.size());
   for (std::size_t i = 0; i < modules.size(); ++i) {
-    FileCheck(context, modules[i], context.result.facts[i]).run();
+    ModuleFacts& facts = context.result.facts[i];
+    FileCheck(context, modules[i], facts).run();
+    if (is_io_module(facts.file)) {
+      declare_io_variables(facts, modules[i], context.config.file.parent_path());
+    }
   }
   if (!context.options.machine) {
     check_same_machine(context);

@@ -10,6 +10,7 @@
 
 #include "config/check/csv_table.h"
 #include "config/check/io_binding.h"
+#include "config/check/io_fmu.h"
 #include "config/check/io_mapping.h"
 #include "config/xml/io_reader.h"
 #include "core/base/text.h"
@@ -81,12 +82,20 @@ std::vector<std::filesystem::path> io_files_of(const Module& module, const std::
     if (!device.csv.as_written.empty() && !std::filesystem::path(device.csv.as_written).is_absolute()) {
       files.push_back(device.csv.file);
     }
+    if (!device.fmu.as_written.empty() && !std::filesystem::path(device.fmu.as_written).is_absolute()) {
+      files.push_back(device.fmu.file);
+    }
     const std::string& description = device.slave.description_as_written;
     if (!description.empty() && !std::filesystem::path(description).is_absolute()) {
       files.push_back(device.slave.description);
     }
   }
   return files;
+}
+
+schema::Schema io_variables_of(const Module& module, const std::filesystem::path& folder) {
+  const auto file = io_config_of(module, folder);
+  return file ? fmu_variables(read_io_config(*file).config) : schema::Schema();
 }
 
 IoAccess io_access_of(const Module& module, CheckContext& context) {
@@ -117,6 +126,11 @@ IoAccess io_access_of(const Module& module, CheckContext& context) {
   for (const BoundDevice& device : devices) {
     if (word != "outputs") {
       check_csv(device, context);
+    }
+    if (device.device.driver == IoDriver::Fmu && context.options.machine && !context.options.simulation) {
+      context.report.warning(module.places.file, fmt::format("device {} is an FMU and runs in simulations only "
+                                                             "(indurop run --sim)",
+                                                             device.device.name));
     }
     const std::filesystem::path& description = device.device.slave.description;
     if (!description.empty() && (context.options.machine || std::filesystem::exists(description))) {

@@ -29,6 +29,9 @@ std::vector<IoDevice> io_devices_of(const Module& module, const std::filesystem:
 // is not an I/O module.
 std::vector<std::filesystem::path> io_files_of(const Module& module, const std::filesystem::path& folder);
 
+// Returns the shared variables that the module's ioconfig.xml declares.
+schema::Schema io_variables_of(const Module& module, const std::filesystem::path& folder);
+
 // Reports errors of the file with their places in it.
 IoAccess io_access_of(const Module& module, CheckContext& context);
 

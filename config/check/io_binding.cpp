@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
+#include "config/check/io_fmu.h"
 #include "core/base/diagnostics.h"
 #include "core/base/text.h"
 #include "core/schema/place_index.h"
@@ -24,7 +26,8 @@ bool is_whole(const schema::Type& type) {
 
 class Binder {
  public:
-  Binder(const schema::Schema& schema, base::Diagnostics& report) : index_(schema), report_(report) {}
+  Binder(const schema::Schema& schema, base::Diagnostics& report, std::vector<base::Diagnostic>& all)
+      : index_(schema), report_(report), all_(all) {}
 
   BoundDevice bind(const IoDevice& device) {
     BoundDevice bound;
@@ -33,7 +36,7 @@ class Binder {
     bound.errors = whole(device.errors, device.errors_place, "errors");
     bound.cut = whole(device.cut, device.cut_place, "cut");
     bound.cable_errors = whole(device.cable_errors, device.cable_errors_place, "cable_errors");
-    for (const IoPoint& point : device.points) {
+    for (const IoPoint& point : device.driver == IoDriver::Fmu ? fmu_points(device) : device.points) {
       add(point, bound);
     }
     if (has_objects(device.driver)) {
@@ -45,6 +48,12 @@ class Binder {
   }
 
  private:
+  std::vector<IoPoint> fmu_points(const IoDevice& device) {
+    FmuPoints read = read_fmu_points(device, report_);
+    all_.insert(all_.end(), read.diagnostics.begin(), read.diagnostics.end());
+    return std::move(read.points);
+  }
+
   std::optional<schema::Place> find(const std::string& name, base::SourcePlace place) {
     auto found = index_.find(name, report_.full() ? schema::NearestName::Skip : schema::NearestName::Search);
     if (!found) {
@@ -159,6 +168,7 @@ class Binder {
 
   schema::PlaceIndex index_;
   base::Diagnostics& report_;
+  std::vector<base::Diagnostic>& all_;                                          // of other files, too
   std::map<std::pair<std::string, std::uint32_t>, base::SourcePlace> claimed_;  // parts of variables that are written
 };
 
@@ -167,7 +177,7 @@ class Binder {
 std::vector<BoundDevice> bind_io(const IoConfig& config, const schema::Schema& schema,
                                  std::vector<base::Diagnostic>& diagnostics) {
   base::Diagnostics report(config.file.string(), diagnostics);
-  Binder binder(schema, report);
+  Binder binder(schema, report, diagnostics);
   std::vector<BoundDevice> bound;
   for (const IoDevice& device : config.devices) {
     bound.push_back(binder.bind(device));

@@ -19,7 +19,7 @@ struct BoundPoint {
   std::optional<schema::Place> quality;
 };
 struct BoundDevice {
-  IoDevice device;  // its points are in `points`, including those that in="" and out="" expand to
+  IoDevice device;  // its points are in `points`, including those that in="", out="", arrays of FMUs expand to
   std::vector<BoundPoint> points;
   std::optional<schema::Place> quality;
   std::optional<schema::Place> errors;

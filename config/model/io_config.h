@@ -16,7 +16,7 @@
 namespace indurop::config {
 
 // ModbusServer: other devices poll this node, an operator panel for example.
-enum class IoDriver { ModbusTcp, ModbusRtu, ModbusServer, Cia402, Ethercat, Csv, Opcua };
+enum class IoDriver { ModbusTcp, ModbusRtu, ModbusServer, Cia402, Ethercat, Csv, Opcua, Fmu };
 // Its points are objects of a drive, by name, or the fields of a struct.
 constexpr bool has_objects(IoDriver driver) noexcept {
   return driver == IoDriver::Cia402 || driver == IoDriver::Ethercat;
@@ -63,7 +63,8 @@ constexpr bool is_same(const IoObject& a, const IoObject& b) noexcept {
 struct IoPoint {
   bool output = false;   // true: from variable to device
   std::string variable;  // as written in the file
-  std::string at;        // as written in the file; csv: column, cia402 and ethercat: object, opcua: NodeId
+  std::string at;        // as written in the file; csv: column, cia402 and ethercat: object, opcua: NodeId, fmu: its
+                         // variable
   IoAddress address;     // Modbus
   IoObject object;       // EtherCAT
   int unit = 1;          // Modbus: unit on the line or after the gateway
@@ -190,6 +191,25 @@ struct IoOpcua {
   std::string socket;  // of that program; empty: the one that it has by default
 };
 
+// A value that an FMU gets before it starts.
+struct IoFmuStart {
+  std::string at;  // variable of the FMU
+  std::string value;
+  base::SourcePlace at_place;
+  base::SourcePlace value_place;
+};
+
+// A model of another tool, for simulations.
+struct IoFmu {
+  std::filesystem::path file;  // relative names start at the folder of ioconfig.xml
+  std::string as_written;
+  std::string variables;  // namespace in which inputs and outputs are declared as shared variables; empty: they are not
+  bool log = false;       // all of its messages are printed, not only warnings and errors
+  std::vector<IoFmuStart> starts;
+  base::SourcePlace file_place;
+  base::SourcePlace variables_place;
+};
+
 struct IoDevice {
   std::string name;
   IoDriver driver = IoDriver::ModbusTcp;
@@ -209,6 +229,7 @@ struct IoDevice {
   IoSlave slave;
   IoCsv csv;
   IoOpcua opcua;
+  IoFmu fmu;
   std::string quality;  // variables about the device as a whole; empty: none
   std::string errors;
   std::string cut;           // Ethercat on a ring

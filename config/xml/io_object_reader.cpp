@@ -126,4 +126,20 @@ void read_io_sync(const base::Element& element, IoDevice& device, base::Diagnost
   attributes.finish("<sync> of an ethercat device");
 }
 
+void check_io_slave(const IoDevice& device, const IoConfig& config, base::Diagnostics& report) {
+  for (const IoDevice& other : config.devices) {
+    if (device.driver == IoDriver::Ethercat && other.driver == IoDriver::Ethercat && device.address == other.address &&
+        device.slave.alias == other.slave.alias && device.slave.position == other.slave.position) {
+      report.error(device.place, fmt::format("{} of {} has the device in line {} already; move its points there",
+                                             describe(device.slave), device.address, other.place.line));
+    }
+    if (device.slave.sync.activate != 0 && other.slave.sync.activate != 0 && device.address != other.address) {
+      report.error(device.place,
+                   fmt::format("<sync>: the tick follows the clocks of {} already, as the device in line {} "
+                               "says, and can follow one bus only; remove <sync> here",
+                               other.address, other.place.line));
+    }
+  }
+}
+
 }  // namespace indurop::config

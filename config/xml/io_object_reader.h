@@ -24,4 +24,7 @@ void read_io_value(const base::Element& element, IoDevice& device, base::Diagnos
 // The same for its <sync>.
 void read_io_sync(const base::Element& element, IoDevice& device, base::Diagnostics& report);
 
+// A slave has one device, and the tick follows one bus. `config`: the devices before it.
+void check_io_slave(const IoDevice& device, const IoConfig& config, base::Diagnostics& report);
+
 }  // namespace indurop::config

@@ -55,6 +55,10 @@ class PointReader {
       case IoDriver::Opcua:
         read_io_node(attributes_, point_, report_);
         break;
+      case IoDriver::Fmu:
+        point_.at = attributes_.need("at", "at=\"cylinder.position\"", &point_.at_place).value_or("");
+        point_.type = WireType::Float64;
+        break;
     }
     read_scaling();
     read_quality();
@@ -194,6 +198,8 @@ class PointReader {
       if (point_.stop && device_.driver == IoDriver::Ethercat) {
         report_.error(element_.place,
                       "stop: an EtherCAT slave leaves OP when the node stops, and sets its outputs itself; remove it");
+      } else if (point_.stop && device_.driver == IoDriver::Fmu) {
+        report_.error(element_.place, "stop: an FMU ends with the node; remove it");
       }
       return;
     }
@@ -269,6 +275,8 @@ const char* name_of(IoDriver driver) noexcept {
       return "csv";
     case IoDriver::Opcua:
       return "opcua";
+    case IoDriver::Fmu:
+      return "fmu";
   }
   return "";
 }
@@ -341,7 +349,7 @@ IoPoint read_io_point(const base::Element& element, const IoDevice& device, base
 }
 
 void check_io_points(const IoDevice& device, base::Diagnostics& report) {
-  if (device.driver == IoDriver::Csv) {
+  if (device.driver == IoDriver::Csv || device.driver == IoDriver::Fmu) {
     return;
   }
   if (has_objects(device.driver) || device.driver == IoDriver::Opcua) {

@@ -13,6 +13,7 @@
 #include "config/xml/document.h"
 #include "config/xml/element_rules.h"
 #include "config/xml/io_copy_reader.h"
+#include "config/xml/io_file_reader.h"
 #include "config/xml/io_homing_reader.h"
 #include "config/xml/io_object_reader.h"
 #include "config/xml/io_opcua_reader.h"
@@ -25,9 +26,9 @@ namespace indurop::config {
 namespace {
 
 constexpr DocumentKind kIoConfigXml{"ioconfig.xml", "<ioconfig> with one <device> per field device"};
-constexpr std::array<IoDriver, 7> kDrivers{IoDriver::ModbusTcp, IoDriver::ModbusRtu, IoDriver::ModbusServer,
+constexpr std::array<IoDriver, 8> kDrivers{IoDriver::ModbusTcp, IoDriver::ModbusRtu, IoDriver::ModbusServer,
                                            IoDriver::Cia402,    IoDriver::Ethercat,  IoDriver::Csv,
-                                           IoDriver::Opcua};
+                                           IoDriver::Opcua,     IoDriver::Fmu};
 constexpr base::Nanos kMillisecond{1'000'000};
 constexpr base::Nanos kOpcuaCycle{100 * kMillisecond};
 constexpr base::Nanos kMinCycle{50'000};
@@ -73,7 +74,10 @@ class DeviceReader {
         read_slave();
         break;
       case IoDriver::Csv:
-        read_csv();
+        read_io_csv(attributes_, folder_, device_.csv);
+        break;
+      case IoDriver::Fmu:
+        read_io_fmu(attributes_, folder_, device_.fmu);
         break;
       case IoDriver::Opcua:
         device_.cycle = kOpcuaCycle;
@@ -83,11 +87,11 @@ class DeviceReader {
     }
     attributes_.finish(fmt::format("<device driver=\"{}\">", name_of(device_.driver)));
     check_no_text(element_, report_);
-    const bool is_slave = device_.driver == IoDriver::Ethercat;
     for (const base::Element& child : element_.children) {
-      const bool known = is_slave ? is_known(child, element_, {"input", "output", "copy", "set", "sync"}, report_)
-                                  : is_known(child, element_, {"input", "output"}, report_);
-      if (known && child.name == "set") {
+      const bool known = is_known(child, element_, children(), report_);
+      if (known && child.name == "set" && device_.driver == IoDriver::Fmu) {
+        read_io_start(child, device_.fmu, report_);
+      } else if (known && child.name == "set") {
         read_io_value(child, device_, report_);
       } else if (known && child.name == "copy") {
         read_io_copy(child, device_, report_);
@@ -102,6 +106,17 @@ class DeviceReader {
   }
 
  private:
+  [[nodiscard]] std::vector<std::string> children() const {
+    switch (device_.driver) {
+      case IoDriver::Ethercat:
+        return {"input", "output", "copy", "set", "sync"};
+      case IoDriver::Fmu:
+        return {"input", "output", "set"};
+      default:
+        return {"input", "output"};
+    }
+  }
+
   bool read_driver() {
     std::vector<std::string> words;
     words.reserve(kDrivers.size());
@@ -273,14 +288,6 @@ class DeviceReader {
         attributes_.integer("seed", 0, std::numeric_limits<std::int64_t>::max()).value_or(1));
   }
 
-  void read_csv() {
-    if (const auto file = attributes_.need("file", "file=\"recorded.csv\"")) {
-      device_.csv.file = (folder_ / *file).lexically_normal();
-      device_.csv.as_written = *file;
-    }
-    device_.csv.loop = attributes_.choose("end", {"hold", "loop"}).value_or(0) == 1;
-  }
-
   const base::Element& element_;
   const std::filesystem::path& folder_;
   base::Diagnostics& report_;
@@ -295,30 +302,17 @@ const char* example_points(IoDriver driver) {
   if (driver == IoDriver::Opcua) {
     return R"(<input variable="..." at="ns=2;s=Temperature"/>)";
   }
+  if (driver == IoDriver::Fmu) {
+    return R"(variables="press", or <input variable="..." at="cylinder.position"/>)";
+  }
   return is_modbus(driver) ? R"(<input variable="..." at="holding:0"/>)" : R"(<input variable="..." at="column"/>)";
 }
 
 // A slave from which others copy needs no points of its own.
 void check_points(const IoDevice& device, const base::Element& element, base::Diagnostics& report) {
-  if (element.children.empty() && device.axis.in.empty() && device.axis.out.empty() && device.slave.copied.empty()) {
+  if (element.children.empty() && device.axis.in.empty() && device.axis.out.empty() && device.slave.copied.empty() &&
+      device.fmu.variables.empty()) {
     report.error(element.place, fmt::format("this device has no points; add {}", example_points(device.driver)));
-  }
-}
-
-// A slave has one device.
-void check_slave(const IoDevice& device, const IoConfig& config, base::Diagnostics& report) {
-  for (const IoDevice& other : config.devices) {
-    if (device.driver == IoDriver::Ethercat && other.driver == IoDriver::Ethercat && device.address == other.address &&
-        device.slave.alias == other.slave.alias && device.slave.position == other.slave.position) {
-      report.error(device.place, fmt::format("{} of {} has the device in line {} already; move its points there",
-                                             describe(device.slave), device.address, other.place.line));
-    }
-    if (device.slave.sync.activate != 0 && other.slave.sync.activate != 0 && device.address != other.address) {
-      report.error(device.place,
-                   fmt::format("<sync>: the tick follows the clocks of {} already, as the device in line {} "
-                               "says, and can follow one bus only; remove <sync> here",
-                               other.address, other.place.line));
-    }
   }
 }
 
@@ -345,7 +339,7 @@ void interpret_io(const base::Element& root, IoConfig& config, base::Diagnostics
       continue;
     }
     elements.push_back(&child);
-    check_slave(*device, config, report);
+    check_io_slave(*device, config, report);
     const auto [first, is_new] = lines.try_emplace(device->name, device->place.line);
     if (!is_new && !device->name.empty()) {
       report.error(device->place, fmt::format("a second device {}, the first is in line {}; give each its own name",

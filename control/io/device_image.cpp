@@ -88,7 +88,7 @@ void DeviceImage::judge(Outcome outcome) noexcept {
     return std::any_of(input_samples_.begin(), input_samples_.end(), has) ||
            std::any_of(output_samples_.begin(), output_samples_.end(), has);
   };
-  const bool lost = outcome == Outcome::Lost || any(Quality::Lost);
+  const bool lost = outcome == Outcome::Lost || outcome == Outcome::Failed || any(Quality::Lost);
   const bool reported = !any(Quality::Refused) && any(Quality::Reported);
   image_.device = lost ? Quality::Lost : reported ? Quality::Reported : Quality::Refused;
 }

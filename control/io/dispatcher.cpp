@@ -19,6 +19,18 @@ Dispatcher::Made Dispatcher::make(const std::filesystem::path& file, const schem
   if (base::has_error(made.diagnostics)) {
     return made;
   }
+  for (const config::IoDevice& device : read.config.devices) {
+    if (!simulated && device.driver == config::IoDriver::Fmu) {
+      made.diagnostics.push_back(
+          {base::Diagnostic::Severity::Error, file.string(), device.place,
+           fmt::format("device {} is an FMU, which may wait and allocate: it runs in simulations "
+                       "only (indurop run --sim). For real time, name the real device",
+                       device.name)});
+    }
+  }
+  if (base::has_error(made.diagnostics)) {
+    return made;
+  }
   std::unique_ptr<Dispatcher> dispatcher(new Dispatcher);  // NOLINT: the constructor is private
   if (simulated) {
     auto wires = simulated(read.config);
@@ -112,6 +124,7 @@ Status Dispatcher::start(std::uint32_t module) {
     const bool is_open = line.thread != nullptr || line.driver->open();
     const Status status = line.thread != nullptr ? line.thread->start(module) : Status();
     if (!is_open || !status) {
+      problem_ = is_open ? "" : line.driver->problem();
       stop();
       return is_open ? status : Status(Error{Errc::NoSpace, 0});
     }
@@ -170,7 +183,7 @@ void Dispatcher::give(const Line& line, const InputImage& image) noexcept {
   write_count(line.cable_errors, line.driver->cable_errors());
 }
 
-void Dispatcher::run(std::chrono::nanoseconds elapsed) noexcept {
+bool Dispatcher::run(std::chrono::nanoseconds elapsed) {
   for (Line& line : lines_) {
     if (line.thread != nullptr) {
       take(line, line.thread->next_outputs());
@@ -178,11 +191,16 @@ void Dispatcher::run(std::chrono::nanoseconds elapsed) noexcept {
       give(line, line.thread->receive());
     } else {
       take(line, line.outputs);
-      (void)line.in_tick->exchange(*line.driver, line.outputs, DeviceImage::Outputs::Fresh, elapsed);
+      const auto outcome = line.in_tick->exchange(*line.driver, line.outputs, DeviceImage::Outputs::Fresh, elapsed);
+      if (outcome == Driver::Outcome::Failed) {
+        problem_ = line.driver->problem();
+        return false;
+      }
       give(line, line.in_tick->current());
     }
   }
   variables_.commit();
+  return true;
 }
 
 }  // namespace indurop::io

@@ -36,11 +36,14 @@ class Dispatcher {
   ~Dispatcher();
 
   // Binds the variables, opens devices in the tick, and starts the threads of devices that need one; their messages are
-  // those of module `module`, which is the caller's. Not real-time safe. Errors: NoSpace, System.
+  // those of module `module`, which is the caller's. Not real-time safe. Errors: NoSpace, System; problem() may say
+  // more.
   Status start(std::uint32_t module);
   // Reads the outputs from their variables, exchanges with devices that work in the tick, and writes the inputs to
-  // their variables. Real-time safe. `elapsed`: time since the last run.
-  void run(std::chrono::nanoseconds elapsed) noexcept;
+  // their variables. Real-time safe. `elapsed`: time since the last run. Returns false if a device cannot go on; then
+  // no input was written, and problem() says why.
+  bool run(std::chrono::nanoseconds elapsed);
+  [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
   // Not real-time safe.
   void stop();
 
@@ -78,6 +81,7 @@ class Dispatcher {
   Variables variables_;
   EthercatBuses buses_;
   std::deque<Line> lines_;
+  std::string problem_;
 };
 
 struct Dispatcher::Made {

@@ -7,6 +7,7 @@
 #include "control/io/cia402_driver.h"
 #include "control/io/csv_driver.h"
 #include "control/io/ethercat_driver.h"
+#include "control/io/fmu_driver.h"
 #include "control/io/modbus_driver.h"
 #include "control/io/modbus_server.h"
 #include "control/io/opcua_driver.h"
@@ -59,6 +60,13 @@ Result<std::unique_ptr<Driver>, std::vector<base::Diagnostic>> make_driver(const
     }
     case config::IoDriver::Opcua:
       return std::unique_ptr<Driver>(std::make_unique<OpcuaDriver>(device, outputs, inputs));
+    case config::IoDriver::Fmu: {
+      auto model = FmuDriver::make(device, outputs, inputs);
+      if (!model) {
+        return std::move(model).error();
+      }
+      return std::unique_ptr<Driver>(std::move(model).value());
+    }
     case config::IoDriver::Csv:
       break;
   }

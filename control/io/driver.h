@@ -30,7 +30,8 @@ class Driver {
   Driver& operator=(const Driver&) = delete;
   virtual ~Driver() = default;
 
-  // Returns true if exchange() is real-time safe and depends on its arguments alone; the tick itself then calls it.
+  // Returns true if exchange() is real-time safe and depends on its arguments alone; the tick itself then calls it. An
+  // FMU need not be real-time safe: it is for virtual time only.
   // false: it may wait for a device and is called by a thread of the device's own.
   [[nodiscard]] virtual bool in_tick() const noexcept = 0;
 
@@ -41,8 +42,9 @@ class Driver {
   // Sends the outputs and reads the inputs, in the order of the points of their direction. `elapsed` is the time since
   // the last exchange, as the schedule counts it. Outputs whose quality is not Good must not be sent. The driver sets
   // the quality of each input and of each output it had to send, and does not change the value of an input that is not
-  // Good. After Lost, close() and open() are called next.
-  enum class Outcome { Good, Partly, Lost };  // unless Good, problem() returns the reason
+  // Good. After Lost, close() and open() are called next. After Failed, which only a driver in the tick returns,
+  // nothing but close() is called: the module cannot go on. May throw what a model throws.
+  enum class Outcome { Good, Partly, Lost, Failed };  // unless Good, problem() returns the reason
   virtual Outcome exchange(std::span<Sample> outputs, std::span<Sample> inputs, std::chrono::nanoseconds elapsed) = 0;
 
   // The cable of a ring that is cut: 1 is that from the first interface to the first slave. 0: none is, or the device

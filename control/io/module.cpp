@@ -78,21 +78,26 @@ void on_start() {
     throw std::runtime_error(file.string() + " cannot be used, see the messages above");
   }
   if (const Status status = dispatcher->start(runtime::current_module()); !status) {
-    throw std::runtime_error("no thread for a device");
+    throw std::runtime_error(dispatcher->problem().empty() ? "no thread for a device" : dispatcher->problem());
   }
 }
 
 // As the schedule counts it, lost periods included; after a long stall only a part, because simulated devices need
-// computing time for theirs.
+// computing time for theirs. Virtual time waits for them.
 std::chrono::nanoseconds elapsed_until(std::int64_t release) {
   constexpr int kMaxPeriods = 10;
   const std::chrono::nanoseconds since(release - self().last_release);
-  return self().last_release == 0 ? irp::period() : std::min(since, kMaxPeriods * irp::period());
+  if (self().last_release == 0) {
+    return irp::period();
+  }
+  return runtime::virtual_ns() ? since : std::min(since, kMaxPeriods * irp::period());
 }
 
 void on_run() {
   const std::int64_t release = irp::release_ns();
-  self().dispatcher->run(elapsed_until(release));
+  if (!self().dispatcher->run(elapsed_until(release))) {
+    throw std::runtime_error(self().dispatcher->problem());
+  }
   self().last_release = release;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions of FMI 2.0 that co-simulation needs.
-#include "doors/fmi/library/fmi2.h"
+#include "control/io/fmu/fmi2.h"
 
 #include <string>
 

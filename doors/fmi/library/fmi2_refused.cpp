@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions of FMI 2.0 for what the model description does not offer: each says why.
+#include "control/io/fmu/fmi2.h"
 #include "doors/fmi/library/border.h"
-#include "doors/fmi/library/fmi2.h"
 
 namespace indurop::fmi {
 namespace {

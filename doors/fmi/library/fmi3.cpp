@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions of FMI 3.0 that co-simulation needs, but for those of variables.
-#include "doors/fmi/library/fmi3.h"
+#include "control/io/fmu/fmi3.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions of FMI 3.0 that read and write variables.
+#include "control/io/fmu/fmi3.h"
 #include "doors/fmi/library/border.h"
-#include "doors/fmi/library/fmi3.h"
 
 namespace indurop::fmi {
 namespace {

@@ -31,6 +31,7 @@ class Fmu {
   ~Fmu();
 
   [[nodiscard]] const std::string& message() const { return message_; }  // what indurop-fmu printed
+  [[nodiscard]] std::filesystem::path archive() const { return folder_ / "made.fmu"; }
   [[nodiscard]] std::string library() const;
   [[nodiscard]] std::string uri() const { return "file://" + resources(); }
   [[nodiscard]] std::string resources() const { return (folder_ / "un packed" / "resources").string(); }

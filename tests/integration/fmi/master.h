@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include "doors/fmi/library/fmi2.h"
-#include "doors/fmi/library/fmi3.h"
+#include "control/io/fmu/fmi2.h"
+#include "control/io/fmu/fmi3.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -12,6 +12,7 @@
 #include "core/base/replace_file.h"
 #include "core/base/text.h"
 #include "tools/cli/fieldbus/import_file.h"
+#include "tools/cli/fieldbus/import_fmu.h"
 #include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
@@ -70,7 +71,7 @@ std::optional<ImportChoice> choice_of(Context& context, const ImportRequest& req
   ImportChoice choice;
   choice.mode = request.mode;
   choice.cycle = request.cycle;
-  choice.place = {request.interface, 0, request.space};
+  choice.place = {request.interface, 0, request.space.empty() ? "IO" : request.space};
   for (const std::string& type : request.devices) {
     choice.added.push_back(io::esi::find_device(all, type));
     if (choice.added.back() == nullptr) {
@@ -121,7 +122,7 @@ int write(Context& context, const ImportRequest& request, const io::esi::EsiFile
 }  // namespace
 
 void add_import_options(base::Options& verb, ImportRequest& request) {
-  verb.add("files", "FILE", request.files, "The manufacturers' descriptions (ESI, XML)")
+  verb.add("files", "FILE", request.files, "The manufacturers' descriptions (ESI, XML), or an FMU")
       .required()
       .completes(base::Completion::File);
   verb.add("--write", "FILE", request.to, "Write or extend this ioconfig.xml").completes(base::Completion::File);
@@ -138,10 +139,16 @@ void add_import_options(base::Options& verb, ImportRequest& request) {
       },
       "Cycle time of the bus (default: 1ms)");
   verb.add("--address", "INTERFACE", request.interface, "Network interface of new devices (default: eth1)");
-  verb.add("--namespace", "NAME", request.space, "Namespace of the variables of new devices (default: IO)");
+  verb.add("--namespace", "NAME", request.space,
+           "Namespace of the variables of new devices (default: IO, or the name of the FMU)");
+  verb.add("--glb", "FILE", request.glb, "Of an FMU: write the declarations of these variables")
+      .completes(base::Completion::File);
 }
 
 int import_esi(Context& context, const ImportRequest& request) {
+  if (names_fmus(request)) {
+    return import_fmu(context, request);
+  }
   const auto all = read_all(context, request.files);
   if (!all) {
     return kFailed;

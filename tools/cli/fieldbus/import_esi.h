@@ -20,7 +20,8 @@ struct ImportRequest {
   std::string mode;
   std::chrono::nanoseconds cycle{1'000'000};
   std::string interface = "eth1";
-  std::string space = "IO";
+  std::string space;  // empty: IO, or the name of the FMU
+  std::filesystem::path glb;
 };
 
 // The request lives as long as the options.

@@ -18,9 +18,6 @@ using EsiDevice = io::esi::Device;
 using io::esi::InitCommand;
 using io::esi::OpMode;
 
-constexpr const char* kEmptyFile = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ioconfig>\n</ioconfig>\n";
-constexpr std::string_view kEnd = "</ioconfig>";
-
 const OpMode* mode_of(const EsiDevice& device, const std::string& name) {
   const auto found = std::find_if(device.modes.begin(), device.modes.end(),
                                   [&name](const OpMode& mode) { return name.empty() || mode.name == name; });
@@ -155,7 +152,7 @@ std::string set_text(const EsiDevice& device) {
 Result<ImportedFile, std::string> import_devices(const std::string& xml, const std::vector<EsiDevice>& known,
                                                  const ImportChoice& choice) {
   ImportedFile imported;
-  imported.xml = xml.empty() ? kEmptyFile : xml;
+  imported.xml = xml.empty() ? kEmptyIoConfig : xml;
   const config::ReadIo present = config::read_io_config_text(imported.xml, "ioconfig.xml");
   // From the end on, so that places before stay what they are.
   for (auto device = present.config.devices.rbegin(); device != present.config.devices.rend(); ++device) {
@@ -176,7 +173,7 @@ Result<ImportedFile, std::string> import_devices(const std::string& xml, const s
     if (text.empty()) {
       return fmt::format("{} exchanges nothing at first; none of its PDOs has an Sm", device->type);
     }
-    imported.xml.insert(imported.xml.rfind(kEnd), text);
+    imported.xml.insert(imported.xml.rfind(kIoConfigEnd), text);
     ++imported.added;
     ++place.slave;
   }

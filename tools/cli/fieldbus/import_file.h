@@ -8,12 +8,17 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "control/io/esi/esi_file.h"
 #include "tools/cli/fieldbus/scan_file.h"
 
 namespace indurop::tools {
+
+// A file without devices; new ones go before its end.
+inline constexpr const char* kEmptyIoConfig = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ioconfig>\n</ioconfig>\n";
+inline constexpr std::string_view kIoConfigEnd = "</ioconfig>";
 
 struct ImportChoice {
   std::vector<const io::esi::Device*> added;  // in the order of the cable, after those that are there

@@ -305,29 +305,32 @@ Action declare_io(base::Options& app, Context& context) {
   };
   files("read-file", "Read a file from an EtherCAT slave", &read_slave_file);
   files("write-file", "Write a file or firmware to an EtherCAT slave", &write_slave_file);
-  base::Options& importing =
-      app.command("import", "List the devices in manufacturers' descriptions (ESI), and write them to an ioconfig.xml",
-                  [request, chosen] { *chosen = [request](Context& c) { return import_esi(c, *request); }; });
+  base::Options& importing = app.command(
+      "import", "List the devices in manufacturers' descriptions (ESI) or the variables of an FMU, for an ioconfig.xml",
+      [request, chosen] { *chosen = [request](Context& c) { return import_esi(c, *request); }; });
   add_import_options(importing, *request);
   add_format_option(importing, context, {Format::Table, Format::Json, Format::Csv});
   importing.details(
       "With --write, devices in that file for which there is a description get <sync> and <set> elements if they\n"
       "have none, and the devices of --device are added. The clock mode is the device's first one, or that of\n"
-      "--mode.\n");
+      "--mode.\n"
+      "An FMU (FILE.fmu) becomes a device for simulations: --write adds it to that file with its inputs and outputs\n"
+      "as shared variables and its parameters as comments; --glb writes their declarations for modules.\n");
   return [chosen](Context& c) { return (*chosen)(c); };
 }
 
 }  // namespace
 
 const Verb kIoVerb{"io", "Before it runs",
-                   "Work with field devices without a node: scan an EtherCAT bus, read ESI files",
+                   "Work with field devices without a node: scan an EtherCAT bus, read ESI files and FMUs",
                    "Examples:\n"
                    "  indurop io scan eth1\n"
                    "  indurop io scan eth1 --write ioconfig.xml\n"
                    "  indurop io objects eth1 --slave 2\n"
                    "  indurop io write-file eth1 firmware.efw new.efw --slave 2 --boot\n"
                    "  indurop io import drives.xml\n"
-                   "  indurop io import drives.xml --write ioconfig.xml --device AKD --device AKD\n",
+                   "  indurop io import drives.xml --write ioconfig.xml --device AKD --device AKD\n"
+                   "  indurop io import press.fmu --write ioconfig.xml --glb press.glb\n",
                    &declare_io};
 
 }  // namespace indurop::tools
