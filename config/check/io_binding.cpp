@@ -97,7 +97,13 @@ class Binder {
     if (!variable) {
       return;
     }
-    if (!is_number(variable->type)) {
+    if (point.is_text && (variable->type.base != schema::Base::Text || !variable->type.dims.empty())) {
+      report_.error(point.variable_place,
+                    fmt::format("{} is {}; for a text it must be one, char[80] for example",
+                                base::in_quotes(point.variable), schema::display_name(variable->type)));
+      return;
+    }
+    if (!point.is_text && !is_number(variable->type)) {
       report_.error(point.variable_place,
                     fmt::format("{} is {}, a point is one number; name a part of it{}", base::in_quotes(point.variable),
                                 schema::display_name(variable->type), example_part(point.variable, variable->type)));

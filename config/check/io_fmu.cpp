@@ -209,9 +209,10 @@ class FmuCheck {
       report_.error(point.at_place, fmt::format("at: {} is {}", base::in_quotes(point.at), text));
       return false;
     };
-    if (!fmu::is_number(variable.type)) {
-      return wrong(fmt::format("a {}; a point is a number, a bool or an enumerator{}", fmu::name_of(variable.type),
-                               variable.type == fmu::Type::String ? ". A text is set once, by <set>" : ""));
+    const bool is_text = variable.type == fmu::Type::String && variable.dims.empty();
+    if (!fmu::is_number(variable.type) && !is_text) {
+      return wrong(fmt::format("{}{}; a point is a number, a bool, an enumerator or a text",
+                               variable.dims.empty() ? "a " : "an array of ", fmu::name_of(variable.type)));
     }
     const bool is_tunable = variable.causality == Causality::Parameter && variable.variability == Variability::Tunable;
     if (!point.output || variable.causality == Causality::Input || is_tunable) {
@@ -272,6 +273,7 @@ class FmuCheck {
     const bool is_array = place.is_whole && !variable.dims.empty();
     for (std::size_t i = 0; i < (is_array ? variable.size() : 1) && points_.size() <= kMaxPoints; ++i) {
       IoPoint one = point;
+      one.is_text = variable.type == fmu::Type::String;
       if (is_array) {
         one.at = fmu::element_name(variable, i);
         one.variable += shared_indices(variable, i);

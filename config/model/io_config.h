@@ -68,6 +68,7 @@ struct IoPoint {
   IoAddress address;     // Modbus
   IoObject object;       // EtherCAT
   int unit = 1;          // Modbus: unit on the line or after the gateway
+  bool is_text = false;  // fmu: the variable is a text
   int every = 1;         // Modbus: exchanged in every n-th cycle of the device
   WireType type = WireType::UInt16;
   bool swap_words = false;  // low word first

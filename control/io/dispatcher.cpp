@@ -11,6 +11,17 @@
 
 namespace indurop::io {
 
+namespace {
+
+base::Diagnostic cannot_be_split(const config::IoDevice& device, const std::filesystem::path& file) {
+  return {base::Diagnostic::Severity::Error, file.string(), device.place,
+          fmt::format("the inputs and outputs of {} device {} cannot be split among two modules; give the module that "
+                      "runs it a file of its own, without phase",
+                      config::name_of(device.driver), device.name)};
+}
+
+}  // namespace
+
 Dispatcher::Made Dispatcher::make(const std::filesystem::path& file, const schema::Schema& schema, Phase phase,
                                   const MakeWires& simulated) {
   config::ReadIo read = config::read_io_config(file);
@@ -61,31 +72,43 @@ std::optional<Dispatcher::Report> Dispatcher::report_to(const std::optional<sche
   return Report{variables_.add_write(*variable), variable->type.base};
 }
 
+void Dispatcher::add_texts(Line& line, std::span<const config::BoundPoint> texts) {
+  std::vector<config::IoPoint> points;
+  for (const config::BoundPoint& b : texts) {
+    points.push_back(b.point);
+    line.texts.push_back({variables_.add_text(b.variable), b.point.output, report_to(b.quality)});
+  }
+  line.driver->add_texts(points);
+}
+
 std::vector<base::Diagnostic> Dispatcher::add(const config::BoundDevice& bound, Phase phase,
                                               const std::filesystem::path& file) {
   std::vector<config::BoundPoint> inputs;
   std::vector<config::BoundPoint> outputs;
   std::vector<config::IoPoint> input_points;
   std::vector<config::IoPoint> output_points;
+  std::vector<config::BoundPoint> texts;
   for (const config::BoundPoint& b : bound.points) {
     if (phase == (b.point.output ? Phase::Inputs : Phase::Outputs)) {
       continue;  // belongs to the other module
+    }
+    if (b.point.is_text) {
+      texts.push_back(b);
+      continue;
     }
     (b.point.output ? outputs : inputs).push_back(b);
     (b.point.output ? output_points : input_points).push_back(b.point);
   }
   const config::IoSlave& slave = bound.device.slave;
   const bool copies = !slave.copies.empty() || !slave.copied.empty();
-  if (inputs.empty() && outputs.empty() && !copies) {
+  if (inputs.empty() && outputs.empty() && texts.empty() && !copies) {
     return {};
   }
   const bool shareable = bound.device.driver == config::IoDriver::ModbusTcp;
-  const bool is_split = outputs.size() + inputs.size() != bound.points.size() || (copies && phase != Phase::Both);
+  const bool is_split =
+      outputs.size() + inputs.size() + texts.size() != bound.points.size() || (copies && phase != Phase::Both);
   if (!shareable && is_split) {
-    return {{base::Diagnostic::Severity::Error, file.string(), bound.device.place,
-             fmt::format("the inputs and outputs of {} device {} cannot be split among two modules; give the module "
-                         "that runs it a file of its own, without phase",
-                         config::name_of(bound.device.driver), bound.device.name)}};
+    return {cannot_be_split(bound.device, file)};
   }
   auto driver = make_driver(bound.device, output_points, input_points, buses_);
   if (!driver) {
@@ -94,6 +117,7 @@ std::vector<base::Diagnostic> Dispatcher::add(const config::BoundDevice& bound, 
   Line& line = lines_.emplace_back();
   line.device = bound.device;
   line.driver = std::move(driver).value();
+  add_texts(line, texts);
   for (const config::BoundPoint& b : inputs) {
     line.to.push_back(variables_.add_write(b.variable));
     line.input_qualities.push_back(report_to(b.quality));
@@ -149,6 +173,22 @@ void Dispatcher::take(Line& line, OutputImage& into) noexcept {
   }
 }
 
+void Dispatcher::take_texts(const Line& line) {
+  for (std::size_t i = 0; i < line.texts.size(); ++i) {
+    if (line.texts[i].output) {
+      variables_.read_text(line.texts[i].part, line.driver->texts()[i]);
+    }
+  }
+}
+
+void Dispatcher::give_texts(const Line& line) {
+  for (std::size_t i = 0; i < line.texts.size(); ++i) {
+    const Text& text = line.texts[i];
+    const bool fits = text.output || variables_.write_text(text.part, line.driver->texts()[i]);
+    write_quality(text.quality, fits ? Quality::Good : Quality::OutOfRange);
+  }
+}
+
 void Dispatcher::write_quality(const std::optional<Report>& to, Quality quality) noexcept {
   if (!to) {
     return;
@@ -191,12 +231,14 @@ bool Dispatcher::run(std::chrono::nanoseconds elapsed) {
       give(line, line.thread->receive());
     } else {
       take(line, line.outputs);
+      take_texts(line);
       const auto outcome = line.in_tick->exchange(*line.driver, line.outputs, DeviceImage::Outputs::Fresh, elapsed);
       if (outcome == Driver::Outcome::Failed) {
         problem_ = line.driver->problem();
         return false;
       }
       give(line, line.in_tick->current());
+      give_texts(line);
     }
   }
   variables_.commit();

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,11 @@ class Dispatcher {
     std::size_t part;  // index in variables_
     schema::Base base;
   };
+  struct Text {
+    std::size_t part;  // text in variables_
+    bool output;
+    std::optional<Report> quality;
+  };
   // One device with the variables of its points, as indices in `variables_`.
   struct Line {
     config::IoDevice device;
@@ -62,6 +68,7 @@ class Dispatcher {
     OutputImage outputs;                     // for a device in the tick
     std::vector<std::size_t> from;           // variables of the outputs
     std::vector<std::size_t> to;             // variables of the inputs
+    std::vector<Text> texts;                 // as the driver has them
     std::vector<std::optional<Report>> input_qualities;
     std::vector<std::optional<Report>> output_qualities;
     std::optional<Report> quality;
@@ -72,9 +79,12 @@ class Dispatcher {
   Dispatcher() = default;
   // Returns the errors of the device.
   std::vector<base::Diagnostic> add(const config::BoundDevice& bound, Phase phase, const std::filesystem::path& file);
+  void add_texts(Line& line, std::span<const config::BoundPoint> texts);
   std::optional<Report> report_to(const std::optional<schema::Place>& variable);
   void take(Line& line, OutputImage& into) noexcept;
   void give(const Line& line, const InputImage& image) noexcept;
+  void take_texts(const Line& line);
+  void give_texts(const Line& line);
   void write_quality(const std::optional<Report>& to, Quality quality) noexcept;
   void write_count(const std::optional<Report>& to, std::uint64_t count) noexcept;
 

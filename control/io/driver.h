@@ -47,6 +47,11 @@ class Driver {
   enum class Outcome { Good, Partly, Lost, Failed };  // unless Good, problem() returns the reason
   virtual Outcome exchange(std::span<Sample> outputs, std::span<Sample> inputs, std::chrono::nanoseconds elapsed) = 0;
 
+  // Points that are texts are not among the points of exchange(). Call it before open(). Such a driver returns their
+  // texts, in this order: those of outputs are set before exchange(), those of inputs read after it.
+  virtual void add_texts(std::span<const config::IoPoint> /*points*/) {}
+  [[nodiscard]] virtual std::span<std::string> texts() noexcept { return {}; }
+
   // The cable of a ring that is cut: 1 is that from the first interface to the first slave. 0: none is, or the device
   // is not on a ring. Real-time safe.
   [[nodiscard]] virtual std::uint32_t cut() const noexcept { return 0; }

@@ -82,6 +82,13 @@ class Fmi2Instance final : public FmuInstance {
     return judge(set_string_(instance_, &variable.reference, 1, &value), "setting " + variable.name);
   }
 
+  bool get_text(const fmu::Variable& variable, std::string& text) override {
+    const char* value = nullptr;  // of the FMU, until its next call
+    const fmi2Status status = get_string_(instance_, &variable.reference, 1, &value);
+    text = value == nullptr ? "" : value;
+    return judge(status, "getting " + variable.name);
+  }
+
   bool enter_initialization() override {
     return judge(set_up_(instance_, fmi2False, 0, 0, fmi2False, 0), "fmi2SetupExperiment") &&
            judge(enter_initialization_(instance_), "fmi2EnterInitializationMode");
@@ -172,6 +179,7 @@ class Fmi2Instance final : public FmuInstance {
     find(set_real_, "fmi2SetReal");
     find(set_integer_, "fmi2SetInteger");
     find(set_boolean_, "fmi2SetBoolean");
+    find(get_string_, "fmi2GetString");
     find(set_string_, "fmi2SetString");
     find(step_, "fmi2DoStep");
     find(boolean_status_, "fmi2GetBooleanStatus");
@@ -197,6 +205,7 @@ class Fmi2Instance final : public FmuInstance {
   decltype(&fmi2SetReal) set_real_ = nullptr;
   decltype(&fmi2SetInteger) set_integer_ = nullptr;
   decltype(&fmi2SetBoolean) set_boolean_ = nullptr;
+  decltype(&fmi2GetString) get_string_ = nullptr;
   decltype(&fmi2SetString) set_string_ = nullptr;
   decltype(&fmi2DoStep) step_ = nullptr;
   decltype(&fmi2GetBooleanStatus) boolean_status_ = nullptr;

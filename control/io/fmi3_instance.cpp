@@ -67,6 +67,13 @@ class Fmi3Instance final : public FmuInstance {
     return judge(set_string_(instance_, &variable.reference, 1, &value, 1), "setting " + variable.name);
   }
 
+  bool get_text(const fmu::Variable& variable, std::string& text) override {
+    const char* value = nullptr;  // of the FMU, until its next call
+    const fmi3Status status = get_string_(instance_, &variable.reference, 1, &value, 1);
+    text = value == nullptr ? "" : value;
+    return judge(status, "getting " + variable.name);
+  }
+
   bool enter_initialization() override {
     return judge(enter_initialization_(instance_, false, 0, 0, false, 0), "fmi3EnterInitializationMode");
   }
@@ -191,6 +198,7 @@ class Fmi3Instance final : public FmuInstance {
     find_access(int64_, "Int64");
     find_access(uint64_, "UInt64");
     find_access(boolean_, "Boolean");
+    find(get_string_, "fmi3GetString");
     find(set_string_, "fmi3SetString");
     find(step_, "fmi3DoStep");
   }
@@ -217,6 +225,7 @@ class Fmi3Instance final : public FmuInstance {
   Access<std::int64_t> int64_;
   Access<std::uint64_t> uint64_;
   Access<bool> boolean_;
+  decltype(&fmi3GetString) get_string_ = nullptr;
   decltype(&fmi3SetString) set_string_ = nullptr;
   decltype(&fmi3DoStep) step_ = nullptr;
 };

@@ -119,6 +119,14 @@ FmuDriver::Place FmuDriver::place_of(const fmu::Description& description, const 
   return {all.size() - 1, place.element};
 }
 
+void FmuDriver::add_texts(std::span<const config::IoPoint> points) {
+  for (const config::IoPoint& point : points) {
+    const fmu::Place place = fmu::find_place(description_, point.at).value_or(fmu::Place{});
+    text_points_.push_back({place.variable, point.output});
+  }
+  texts_.resize(points.size());
+}
+
 bool FmuDriver::fail(const std::string& what) {
   problem_ = fmt::format("{} ({}) at {} s: {}", device_.name, device_.fmu.as_written, seconds(time_), what);
   return false;
@@ -179,7 +187,8 @@ Driver::Outcome FmuDriver::exchange(std::span<Sample> outputs, std::span<Sample>
   if (is_first) {
     period_ = elapsed;
   }
-  const bool done = set_outputs() && (is_first ? instance_->exit_initialization() : advance(elapsed)) && read(inputs);
+  const bool done =
+      set_outputs() && set_texts() && (is_first ? instance_->exit_initialization() : advance(elapsed)) && read(inputs);
   is_inside_ = false;
   if (!done && problem_.empty()) {
     fail(instance_->problem());
@@ -212,6 +221,19 @@ bool FmuDriver::set_outputs() {
   return true;
 }
 
+bool FmuDriver::set_texts() {
+  for (std::size_t i = 0; i < texts_.size(); ++i) {
+    TextPoint& point = text_points_[i];
+    if (point.output && point.sent != texts_[i]) {
+      point.sent = texts_[i];
+      if (!instance_->set_text(description_.variables[point.variable], texts_[i])) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 // In steps of the module's period, also if runs were skipped: many FMUs know steps of one length only.
 bool FmuDriver::advance(std::chrono::nanoseconds elapsed) {
   const bool is_multiple = elapsed % period_ == std::chrono::nanoseconds::zero();
@@ -230,6 +252,12 @@ bool FmuDriver::advance(std::chrono::nanoseconds elapsed) {
 bool FmuDriver::read(std::span<Sample> inputs) {
   for (Used& used : read_) {
     if (!instance_->get(description_.variables[used.variable], used.values)) {
+      return false;
+    }
+  }
+  for (std::size_t i = 0; i < texts_.size(); ++i) {
+    const TextPoint& point = text_points_[i];
+    if (!point.output && !instance_->get_text(description_.variables[point.variable], texts_[i])) {
       return false;
     }
   }

@@ -29,6 +29,8 @@ class FmuDriver final : public Driver {
   [[nodiscard]] bool in_tick() const noexcept override { return true; }
   bool open() override;
   Outcome exchange(std::span<Sample> outputs, std::span<Sample> inputs, std::chrono::nanoseconds elapsed) override;
+  void add_texts(std::span<const config::IoPoint> points) override;
+  [[nodiscard]] std::span<std::string> texts() noexcept override { return texts_; }
   void close() noexcept override;
   [[nodiscard]] std::string problem() const override { return problem_; }
 
@@ -43,10 +45,16 @@ class FmuDriver final : public Driver {
     std::size_t used = 0;
     std::size_t element = 0;
   };
+  struct TextPoint {
+    std::size_t variable = 0;  // index into the description
+    bool output = false;
+    std::optional<std::string> sent{};
+  };
   static Place place_of(const fmu::Description& description, const std::string& at, std::vector<Used>& all);
   bool set_starts();
   void take(std::span<Sample> outputs);
   bool set_outputs();
+  bool set_texts();
   bool advance(std::chrono::nanoseconds elapsed);
   bool read(std::span<Sample> inputs);
   bool fail(const std::string& what);
@@ -57,6 +65,8 @@ class FmuDriver final : public Driver {
   std::vector<Used> read_;
   std::vector<Place> outputs_;  // of the points
   std::vector<Place> inputs_;
+  std::vector<TextPoint> text_points_;
+  std::vector<std::string> texts_;  // of these points
   std::optional<FmuFolder> folder_;
   std::unique_ptr<FmuLog> log_;
   std::unique_ptr<FmuInstance> instance_;

@@ -57,6 +57,7 @@ class FmuInstance {
   virtual bool set(const fmu::Variable& variable, std::span<const Number> values) = 0;
   virtual bool get(const fmu::Variable& variable, std::span<Number> values) = 0;
   virtual bool set_text(const fmu::Variable& variable, const std::string& text) = 0;
+  virtual bool get_text(const fmu::Variable& variable, std::string& text) = 0;
   virtual bool enter_initialization() = 0;  // at time 0
   virtual bool exit_initialization() = 0;
   // Advances from `at` by `size`, in seconds.

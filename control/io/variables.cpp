@@ -94,6 +94,42 @@ std::size_t Variables::add_write(const schema::Place& part) {
   return writes_.size() - 1;
 }
 
+std::size_t Variables::add_text(const schema::Place& part) {
+  texts_.push_back(part_of(part));
+  return texts_.size() - 1;
+}
+
+void Variables::read_text(std::size_t text, std::string& into) const {
+  const Part& part = texts_[text];
+  into.resize(part.size);
+  load_ring(rows_[part.row], part.offset, into.data(), part.size);
+  into.resize(std::min(into.find('\0'), into.size()));
+}
+
+bool Variables::write_text(std::size_t text, std::string_view value) {
+  const Part& part = texts_[text];
+  std::size_t size = std::min(value.find('\0'), value.size());
+  const bool fits = size < part.size;
+  for (size = std::min<std::size_t>(size, part.size - 1); size > 0 && !fits; --size) {
+    if ((static_cast<unsigned char>(value[size]) & 0xC0U) != 0x80U) {
+      break;  // the next character begins there
+    }
+  }
+  std::string present;
+  read_text(text, present);
+  if (present == value.substr(0, size)) {
+    return fits;
+  }
+  std::string bytes(value.substr(0, size));
+  bytes.resize(part.size);
+  abi::RingHeader* const ring = ring_of(rows_[part.row]);
+  if (auto* const slot = static_cast<unsigned char*>(indurop_begin_edit(ring)); slot != nullptr) {
+    detail::copy_to_shared(slot + part.offset, bytes.data(), part.size);
+    indurop_commit_write(ring);
+  }
+  return fits;
+}
+
 void Variables::bind() {
   if (!bound_ && !rows_.empty()) {
     indurop_register_refs(rows_.data(), static_cast<std::uint32_t>(rows_.size()), abi::kVersion);

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <deque>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/schema/schema.h"
@@ -26,11 +27,17 @@ class Variables {
   // Adds a number in a variable to read or to write. Call it before bind(). The part has at most 8 bytes.
   std::size_t add_read(const schema::Place& part);
   std::size_t add_write(const schema::Place& part);
+  // Adds a text, which is read and written at once.
+  std::size_t add_text(const schema::Place& part);
   void bind();
   void unbind();
 
   // Returns the part's bytes, in the format of scaling.h.
   [[nodiscard]] std::uint64_t read(std::size_t part) const noexcept;
+  // The part's text, up to its first NUL.
+  void read_text(std::size_t text, std::string& into) const;
+  // Writes it if it differs; cuts it at the last character that fits, and returns false then.
+  bool write_text(std::size_t text, std::string_view value);
   // Sets the value that commit() writes; a part that was never set is not written.
   void set(std::size_t part, std::uint64_t bits) noexcept;
   // Writes all parts that differ from the values of their variables, each variable in one commit.
@@ -56,6 +63,7 @@ class Variables {
   std::vector<abi::Ref> rows_;
   std::vector<Part> reads_;
   std::vector<Write> writes_;
+  std::vector<Part> texts_;
   std::vector<std::vector<std::size_t>> writes_of_row_;
   bool bound_ = false;
 };

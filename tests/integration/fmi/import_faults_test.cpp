@@ -183,7 +183,7 @@ TEST(FmuCheck, All_errors_are_reported_at_once_with_their_places) {
            "ioconfig.xml:10:38: error: at: 'T' is a parameter that does not change while the FMU runs",
            "ioconfig.xml:12:38: error: 'u' is written by the output in line 11 already",
            "has no variable 'lag.z'; did you mean 'lag.y'?",
-           "ioconfig.xml:14:37: error: at: 'text' is a String; a point is a number",
+           "ioconfig.xml:14:18: error: 'kinds::in.i16' is int16_t; for a text it must be one, char[80] for example",
            "has no variable 'vector[3,1]'",
            "kinds::in has no field 'nothing'",
            "variables: 'no name' is no namespace",

@@ -120,6 +120,34 @@ TEST_P(FmuImport, Points_have_scales_qualities_and_limits) {
   EXPECT_EQ(plant.get<double>("kinds::in.grid[1][2]"), -1);
 }
 
+TEST_P(FmuImport, Texts_are_points_and_are_cut_between_characters) {
+  const Model model(fmt::format(R"(<device name="lag" driver="fmu" file="{}">
+    <output variable="kinds::in.text" at="word"/>
+    <input variable="kinds::echo" at="echo" quality="kinds::in.i8"/></device>)",
+                                lag(GetParam())),
+                    types_module());
+  Plant plant(model.file());
+  plant.set("kinds::in.text", "abc");
+  plant.step(2);
+  EXPECT_EQ(plant.get<std::string>("kinds::echo"), "abcabc");
+  EXPECT_EQ(plant.get<int>("kinds::in.i8"), 1);
+  plant.set("kinds::in.text", "12345678\u00e4");
+  plant.step();
+  EXPECT_EQ(plant.get<std::string>("kinds::echo"), "12345678\u00e412345") << "15 bytes fit";
+  EXPECT_EQ(plant.get<int>("kinds::in.i8"), 4);
+  plant.set("kinds::in.text", "1234567\u00e412345");
+  plant.step();
+  EXPECT_EQ(plant.get<std::string>("kinds::echo"), "1234567\u00e4123451");
+  plant.set("kinds::in.text", "\u00e4\u00e4\u00e4\u00e4");
+  plant.step();
+  EXPECT_EQ(plant.get<std::string>("kinds::echo"), "\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4\u00e4")
+      << "14 bytes are 7 characters";
+  plant.set("kinds::in.text", "");
+  plant.step();
+  EXPECT_EQ(plant.get<std::string>("kinds::echo"), "");
+  EXPECT_EQ(plant.get<int>("kinds::in.i8"), 1);
+}
+
 TEST_P(FmuImport, Two_instances_share_nothing) {
   const Model model(device(R"(<input variable="kinds::in.i32" at="counter"/>)", "left") +
                         device(R"(<input variable="kinds::in.i16" at="counter"/><set at="T" value="1"/>)", "right"),

@@ -34,6 +34,7 @@ typedef struct {
   int steps, fault, at, choice, first_byte, mode;  /* mode: 0 instantiated, 1 initialization, 2 stepping */
   bool flag, has_ended;
   char text[64];
+  char echo[129];
   char folder[4096];
   int64_t whole[8];  /* by size and sign */
   float small;
@@ -41,7 +42,7 @@ typedef struct {
 
 /* References of the model description. */
 enum { TIME, U, Y, TAU, GAIN, STEPS, FAULT, AT, FLAG, FLAG_OUT, CHOICE, CHOICE_OUT, TEXT, LENGTH, BYTE, VECTOR, TWICE,
-       SMALL = 20, SMALL_OUT, WHOLE = 30, WHOLE_OUT = 40, COUNTER = 50 };
+       SMALL = 20, SMALL_OUT, WHOLE = 30, WHOLE_OUT = 40, COUNTER = 50, WORD, ECHO };
 
 static void say(Lag* lag, int status, const char* category, const char* text) {
   if (lag->log != NULL) {
@@ -195,6 +196,11 @@ static bool set_whole(Lag* lag, Reference reference, int value) {
   return true;
 }
 
+static const char* text_of(Lag* lag, Reference reference) {
+  snprintf(lag->echo, sizeof lag->echo, reference == ECHO ? "%s%s" : "%s", lag->text, lag->text);
+  return lag->echo;
+}
+
 static int judge(Lag* lag, bool known) {
   if (!known) {
     say(lag, ERROR, "logStatusError", "no such variable, or not now");
@@ -299,8 +305,15 @@ EXPORT int fmi2SetBoolean(void* c, const Reference refs[], size_t count, const i
   }
   return OK;
 }
+/* Of the parameter "text", and of the output "echo", which has it twice. */
+EXPORT int fmi2GetString(void* c, const Reference refs[], size_t count, const char* values[]) {
+  for (size_t i = 0; i < count; ++i) {
+    values[i] = text_of(c, refs[i]);
+  }
+  return OK;
+}
 EXPORT int fmi2SetString(void* c, const Reference refs[], size_t count, const char* const values[]) {
-  for (size_t i = 0; i < count && refs[i] == TEXT; ++i) {
+  for (size_t i = 0; i < count && (refs[i] == TEXT || refs[i] == WORD); ++i) {
     snprintf(((Lag*)c)->text, sizeof ((Lag*)c)->text, "%s", values[i]);
   }
   return OK;
@@ -410,9 +423,13 @@ EXPORT int fmi3SetBoolean(void* c, const Reference refs[], size_t count, const b
   ((Lag*)c)->flag = values[0];
   return judge(c, count == 1 && value_count == 1 && refs[0] == FLAG);
 }
+EXPORT int fmi3GetString(void* c, const Reference refs[], size_t count, const char* values[], size_t value_count) {
+  values[0] = text_of(c, refs[0]);
+  return judge(c, count == 1 && value_count == 1);
+}
 EXPORT int fmi3SetString(void* c, const Reference refs[], size_t count, const char* const values[], size_t value_count) {
   snprintf(((Lag*)c)->text, sizeof ((Lag*)c)->text, "%s", values[0]);
-  return judge(c, count == 1 && value_count == 1 && refs[0] == TEXT);
+  return judge(c, count == 1 && value_count == 1 && (refs[0] == TEXT || refs[0] == WORD));
 }
 
 #endif
