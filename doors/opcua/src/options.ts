@@ -59,9 +59,8 @@ Shows the boards of an \`indurop serve\` over OPC UA, or reads and writes other 
   --items NUMBER       Monitored items of all clients together; default 60000
   --state FOLDER       Certificates; default \$INDUROP_STATE_DIR/opcua
   --client             Connect the devices of driver opcua in ioconfig.xml with their servers
-  --socket PATH        Of --client: where I/O modules reach it; default \$XDG_RUNTIME_DIR/indurop-opcua.sock, else
-                       /run/indurop/opcua.sock
-  --password-file FILE  Of --client: lines \`USER PASSWORD\`, for devices that name a user
+  --socket PATH        Where I/O modules reach --client; default indurop-opcua.sock in XDG_RUNTIME_DIR, or /run/indurop/opcua.sock
+  --password-file FILE  Lines \`USER PASSWORD\` for devices of --client that name a user
   --check              List what is shown and what a type cannot show, then exit
   --version            Print the version
   -h, --help           Print this help
