@@ -13,14 +13,15 @@ namespace indurop::robot {
 
 namespace {
 
-// Returns the maximum lever of a solid about the axes that move it, in any position: from the last axis back to the one
-// after `first`.
-Joints lever_of(const Arm& arm, const Solid& solid, int first, int last) {
+// Returns the maximum lever of a solid that `of` joints of the chain move, in any position, as seen from what `from`
+// joints move: about the axes between them, the nearest one first.
+Joints lever_of(const Arm& arm, const Solid& solid, int seen_from, int of) {
   Joints lever = Joints::Zero();
   Vec3 from = solid.place.position;
   double farthest = solid.radius();
-  for (int i = last - 1; i >= first; --i) {
-    const Link& link = arm.link(i);
+  const int step = of > seen_from ? -1 : 1;
+  for (int i = of; i != seen_from; i += step) {
+    const Link& link = arm.link(std::min(i, i + step));
     const double ratio = std::abs(link.ratio);
     if (link.kind == AxisKind::Sliding) {
       lever[link.axis] += ratio;
@@ -80,7 +81,7 @@ void Clearance::add(const std::string& name, const Part& part) {
   const auto found = std::find(names_.begin(), names_.end(), name);
   parts_.push_back(part);
   parts_.back().body = static_cast<int>(found - names_.begin());
-  parts_.back().lever = lever_of(arm_, part.solid, 0, part.joint);
+  parts_.back().lever = lever_of(arm_, part.solid, arm_.world_joint(), part.joint);
   if (found == names_.end()) {
     names_.push_back(name);
   }
@@ -129,6 +130,19 @@ void Clearance::add_pair(int a, int b) {
   const Part& first = parts_[index(a)];
   const Part& last = parts_[index(b)];
   pairs_.push_back({a, b, std::max(first.tool, last.tool), lever_of(arm_, last.solid, first.joint, last.joint)});
+}
+
+void Clearance::frames_in_world(const Joints& q, ChainFrames& frames) const noexcept {
+  arm_.frames(q, frames);
+  if (arm_.world_joint() == 0) {
+    return;
+  }
+  const ChainFrame world = frames[index(arm_.world_joint())];
+  const Mat3 back = world.turn.transpose();
+  for (int i = 0; i <= arm_.chain_length(); ++i) {
+    ChainFrame& frame = frames[index(i)];
+    frame = {back * frame.turn, back * (frame.shift - world.shift)};
+  }
 }
 
 void Clearance::place(const Joints& q, Places& places) const noexcept {

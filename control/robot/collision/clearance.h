@@ -20,7 +20,7 @@ class Clearance {
     int joint = 0;  // number of moving joints of the chain that move it
     int tool = 0;   // only while this tool is held; 0: always
     Solid solid;    // in the base's frame, joints at zero
-    // m that a point of it moves at most when an axis moves by 1 rad (or m).
+    // m that a point of it moves at most, seen from the world, when an axis moves by 1 rad (or m).
     Joints lever = Joints::Zero();
   };
   struct Pair {
@@ -43,8 +43,9 @@ class Clearance {
 
   // Returns whether a part belongs to the arm or to a tool, not to a zone.
   [[nodiscard]] bool is_of_arm(std::size_t part) const noexcept { return part < first_zone_; }
-  // Computes the frames of the arm's joints, and where a part is. Real-time safe, like all functions below.
-  void frames(const Joints& q, ChainFrames& frames) const noexcept { arm_.frames(q, frames); }
+  // Computes the frames of the arm's joints, seen from the world, and where a part is. Real-time safe, like all
+  // functions below.
+  void frames_in_world(const Joints& q, ChainFrames& frames) const noexcept;
   [[nodiscard]] static PlacedSolid placed(const Part& part, const ChainFrames& frames) noexcept;
   // Computes where the parts are. `places` has one entry for each.
   void place(const Joints& q, Places& places) const noexcept;

@@ -102,12 +102,9 @@ Diagnostics check_workspace(const FileNames& names, const JobBook& book, const A
 // Robots that share their space need bodies, and jobs that begin motions together need such robots.
 Diagnostics check_space(const FileNames& names, const JobBook& book, const Arm& arm, const Clearance& clearance) {
   Diagnostics errors;
-  if (names.shares.value_or(false) && arm.world_joint() > 0) {
-    errors.push_back(error(names.urdf, {1, 1},
-                           "a robot with a positioner cannot share its space; remove the property other_robots"));
-  } else if (names.shares.value_or(false) &&
-             std::none_of(clearance.parts().begin(), clearance.parts().end(),
-                          [](const Clearance::Part& part) { return part.joint > 0 && part.tool == 0; })) {
+  if (names.shares.value_or(false) &&
+      std::none_of(clearance.parts().begin(), clearance.parts().end(),
+                   [&arm](const Clearance::Part& part) { return part.joint > arm.world_joint() && part.tool == 0; })) {
     errors.push_back(error(names.urdf, {1, 1}, "robots that share their space need bodies; give links <collision>"));
   }
   for (const NamedVariable& sync : book.syncs) {

@@ -8,7 +8,7 @@ namespace indurop::robot {
 
 void ArmCells::add(const Joints& q, const Joints& around, int tool, double more, SpaceCells& cells) const noexcept {
   ChainFrames frames;
-  clearance_.frames(q, frames);
+  clearance_.frames_in_world(q, frames);
   for (std::size_t i = 0; i < clearance_.parts().size(); ++i) {
     if (counts(i, tool)) {
       const Clearance::Part& part = clearance_.parts()[i];

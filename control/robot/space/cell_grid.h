@@ -24,7 +24,7 @@ class CellGrid {
   // m that bodies may move from where their cells were computed.
   [[nodiscard]] double slack() const noexcept { return edge() / 4; }
   // Adds all cells that come nearer to a body than `more` m, and some that only nearly do. `body`: in the frame of the
-  // robot's base. Real-time safe.
+  // robot's base, which stands still. Real-time safe.
   void add(const PlacedSolid& body, double more, SpaceCells& cells) const noexcept;
 
  private:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Robots that share their space, with random jobs, holds, overrides, stops, emergencies and failing drives at random
 // instants: their bodies, which are placed and measured in another way, never touch, and each robot holds the cells
-// where its bodies are. INDUROP_ROBOT_SPACES says how many runs, INDUROP_ROBOT_SEED from which one on.
+// where its bodies are. Some have tables, which turn within the reach of others. INDUROP_ROBOT_SPACES says how many
+// runs, INDUROP_ROBOT_SEED from which one on.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,22 +16,32 @@
 namespace indurop::robot {
 namespace {
 
-// Motions all around, most of them in front of the robot.
-std::string random_motions(std::mt19937& random) {
+// Motions all around, most of them in front of the robot, or above its table, which has `table` axes.
+std::string random_motions(std::mt19937& random, int table = 0) {
   const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   const auto one_of = [&](int many) { return std::uniform_int_distribution<int>(0, many - 1)(random); };
   std::string job;
   constexpr int kPoints = 8;
+  const auto tilted = [&] { return in(-40, 40); };
+  const auto turned = [&] { return in(-150, 150); };
+  const auto axes = [&] {
+    return table == 2 ? fmt::format(" AXIS 7 {} AXIS 8 {}", tilted(), turned()) : fmt::format(" AXIS 7 {}", turned());
+  };
   for (int i = 0; i < kPoints; ++i) {
     if (i % 2 == 0) {
-      job += fmt::format("POINT P{} = JOINT {} {} {} {} {} {}\n", i, in(-100, 100), in(-40, 80), in(-90, 30),
+      job += fmt::format("POINT P{} = JOINT {} {} {} {} {} {}", i,
+                         table > 0 ? in(35, 100) * (1 - 2 * one_of(2)) : in(-100, 100), in(-40, 80), in(-90, 30),
                          in(-90, 90), in(-80, 80), in(-180, 180));
+      job += (table == 2 ? fmt::format(" {}", tilted()) : "") + (table > 0 ? fmt::format(" {}", turned()) : "") + "\n";
+    } else if (table > 0) {
+      job += fmt::format("POINT P{} = POSE {} {} {} RPY 180 0 {}{}\n", i, in(-300, 300), in(-300, 300), in(60, 400),
+                         in(-60, 60), one_of(2) == 0 ? axes() : "");
     } else {
       job += fmt::format("POINT P{} = POSE {} {} {} RPY 180 0 {}\n", i, in(350, 750), in(-400, 400), in(200, 700),
                          in(-60, 60));
     }
   }
-  job += "MOVJ P0\n";
+  job += table > 0 ? "TRY\nMOVJ P0\nRECOVER\nWAIT 0.1 s\nEND\n" : "MOVJ P0\n";
   for (int i = 0; i < 12; ++i) {
     if (one_of(4) == 0) {
       job += fmt::format("SPEED {}%\n", 20 + one_of(81));
@@ -39,8 +50,9 @@ std::string random_motions(std::mt19937& random) {
       job += fmt::format("ZONE {} mm\n", one_of(2) * (5 + one_of(60)));
     }
     const int to = one_of(kPoints);
-    job += one_of(3) > 0 || to % 2 == 0 ? fmt::format("TRY\nMOVJ P{}\nRECOVER\nWAIT 0.1 s\nEND\n", to)
-                                        : fmt::format("TRY\nMOVL P{}\nRECOVER\nWAIT 0.1 s\nEND\n", to);
+    const bool line = to % 2 != 0 && one_of(3) == 0;
+    const std::string where = table > 0 && one_of(4) == 0 ? "HERE" + axes() : fmt::format("P{}", to);
+    job += fmt::format("TRY\nMOV{} {}\nRECOVER\nWAIT 0.1 s\nEND\n", line ? "L" : "J", where);
     if (one_of(5) == 0) {
       job += fmt::format("WAIT {:.2f} s\n", in(0.1, 1));
     }
@@ -53,16 +65,48 @@ class Random_spaces : public testing::Test {
   double least = HUGE_VAL;  // m between robots
   std::map<std::string, int> seen;
 
+  template <class Run>
+  void run_all(int usual, const Run& run_one) {
+    const int first = number_of("INDUROP_ROBOT_SEED", usual);
+    const int many = number_of("INDUROP_ROBOT_SPACES", 12);
+    for (int i = 0; i < many && !HasFatalFailure(); ++i) {
+      run_one(static_cast<unsigned>(first + i));
+    }
+    for (const auto& [what, times] : seen) {
+      fmt::print("{:8} {}\n", times, what);
+    }
+    fmt::print("{:.1f} mm between robots at least\n", 1000 * least);
+  }
+
   void run(unsigned seed, bool shares, bool disturbs) {
     std::mt19937 random(seed);
     const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
-    const double period_ms = seed % 3 == 0 ? 2 : seed % 3 == 1 ? 4 : 10;
     std::vector<SharingRobot> robots{{"A", random_motions(random)},
                                      {"B", random_motions(random), {in(850, 1300), in(-200, 200), 0, 0, 0, 180}}};
     if (seed % 4 == 3) {
       robots.push_back({"C", random_motions(random), {in(300, 700), in(850, 1100), 0, 0, 0, -90}});
     }
-    SharingRobots sut(robots, period_ms, shares);
+    run(robots, {0, -700, 0, 1400, 700, 1400}, random, seed, shares, disturbs);
+  }
+
+  // The table of A is between both; that of B, if it has one, is within the reach of A.
+  void run_with_tables(unsigned seed, bool shares, bool disturbs) {
+    std::mt19937 random(seed);
+    const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const int first = 1 + static_cast<int>(seed % 2);
+    const int second = static_cast<int>(seed / 2 % 3);
+    const double x = second > 0 ? in(1850, 2100) : in(1200, 1450);
+    run({{"A", random_motions(random, first), {0, 0, 0, 0, 0, 0}, 90, first},
+         {"B", random_motions(random, second), {x, in(-100, 200), 0, 0, 0, 180}, 90, second}},
+        {0, -800, 0, x + 100, 800, 1400}, random, seed, shares, disturbs);
+  }
+
+ private:
+  void run(const std::vector<SharingRobot>& robots, const std::vector<double>& box, std::mt19937& random, unsigned seed,
+           bool shares, bool disturbs) {
+    const auto in = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const double period_ms = seed % 3 == 0 ? 2 : seed % 3 == 1 ? 4 : 10;
+    SharingRobots sut(robots, period_ms, shares, box);
     ASSERT_TRUE(sut.enable()) << "seed " << seed;
     for (int i = 0; i < 20000 / period_ms; ++i) {
       for (std::size_t k = 0; k < sut.size(); ++k) {
@@ -90,7 +134,6 @@ class Random_spaces : public testing::Test {
     }
   }
 
- private:
   // Starts each job again, and resets and enables a robot that stopped.
   void recover(SharingRobots& sut, std::size_t k) {
     Cell& cell = sut[k];
@@ -129,7 +172,7 @@ class Random_spaces : public testing::Test {
         cell.in.emergency = true;
         break;
       case 6:
-        cell.in.drives[std::uniform_int_distribution<std::size_t>(0, 5)(random)].status = Cell::kFault;
+        cell.in.drives[std::uniform_int_distribution<std::size_t>(0, 7)(random)].status = Cell::kFault;
         break;
       case 7:
         cell.ask(Service::GroupDisable);
@@ -159,39 +202,32 @@ class Random_spaces : public testing::Test {
 };
 
 TEST_F(Random_spaces, Robots_never_touch) {
-  const int first = number_of("INDUROP_ROBOT_SEED", 1);
-  const int many = number_of("INDUROP_ROBOT_SPACES", 12);
-  for (int i = 0; i < many; ++i) {
-    run(static_cast<unsigned>(first + i), true, false);
-    if (HasFatalFailure()) {
-      return;
-    }
-  }
-  for (const auto& [what, times] : seen) {
-    fmt::print("{:8} {}\n", times, what);
-  }
-  fmt::print("{:.1f} mm between robots at least\n", 1000 * least);
+  run_all(1, [&](unsigned seed) { run(seed, true, false); });
 }
 
 TEST_F(Random_spaces, Robots_never_touch_whatever_happens) {
-  const int first = number_of("INDUROP_ROBOT_SEED", 1001);
-  const int many = number_of("INDUROP_ROBOT_SPACES", 12);
-  for (int i = 0; i < many; ++i) {
-    run(static_cast<unsigned>(first + i), true, true);
-    if (HasFatalFailure()) {
-      return;
-    }
-  }
-  for (const auto& [what, times] : seen) {
-    fmt::print("{:8} {}\n", times, what);
-  }
-  fmt::print("{:.1f} mm between robots at least\n", 1000 * least);
+  run_all(1001, [&](unsigned seed) { run(seed, true, true); });
+}
+
+TEST_F(Random_spaces, Robots_and_tables_never_touch) {
+  run_all(1, [&](unsigned seed) { run_with_tables(seed, true, false); });
+}
+
+TEST_F(Random_spaces, Robots_and_tables_never_touch_whatever_happens) {
+  run_all(1001, [&](unsigned seed) { run_with_tables(seed, true, true); });
 }
 
 // The judge sees it if robots do not share their space.
 TEST_F(Random_spaces, Robots_touch_without_it) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     run(seed, false, false);
+  }
+  EXPECT_EQ(least, 0);
+}
+
+TEST_F(Random_spaces, Tables_touch_without_it) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    run_with_tables(seed, false, false);
   }
   EXPECT_EQ(least, 0);
 }

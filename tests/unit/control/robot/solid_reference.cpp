@@ -30,6 +30,12 @@ Vec3 nearest_on(const ReferencePlace& place, const Vec3& point) {
   return place.frame * place.solid->nearest(place.frame.inverse() * point);
 }
 
+Frame moved(const ReferenceArm::Joint& joint, double at) {
+  const Frame link = frame_of(joint.origin, joint.rpy);
+  return joint.slides ? Frame(link * Eigen::Translation3d(at * joint.axis.normalized()))
+                      : Frame(link * Eigen::AngleAxisd(at, joint.axis.normalized()));
+}
+
 double within(std::mt19937& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
@@ -121,6 +127,18 @@ ReferenceArm ReferenceArm::usual() {
   return arm;
 }
 
+ReferenceArm ReferenceArm::with_table(int axes) {
+  using Kind = ReferenceSolid::Kind;
+  ReferenceArm arm = usual();
+  if (axes == 2) {
+    arm.table.push_back({{0.6, 0.1, 0.2}, {0, 0, 0.4}, {0, 1, 0}, false, -0.8, 0.8});
+    arm.on_table.push_back({Kind::Box, {0.2, 0.3, 0.05}, {0, 0, -0.03}, {0, 0, 0}});
+  }
+  arm.table.push_back({axes == 2 ? Vec3(0, 0, 0.04) : Vec3(0.6, 0.1, 0.24), {0, 0, 0.3}, {0, 0, 1}, false, -3, 3});
+  arm.on_table.push_back({Kind::Box, {0.5, 0.12, 0.06}, {0.05, 0, 0.03}, {0, 0, 0.2}});
+  return arm;
+}
+
 ReferenceArm ReferenceArm::any(std::mt19937& random) {
   ReferenceArm arm;
   const std::size_t axes = 3 + random() % 5;
@@ -155,7 +173,17 @@ std::string ReferenceArm::urdf() const {
         << "' upper='" << joint.upper << "' velocity='3' effort='1'/></joint>\n";
   }
   out << "<joint name='end' type='fixed'><parent link='link" << joints.size() << "'/><child link='tool0'/><origin xyz='"
-      << text(tool) << "' rpy='0 1.5707963267948966 0'/></joint>\n</robot>\n";
+      << text(tool) << "' rpy='0 1.5707963267948966 0'/></joint>\n";
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const Joint& joint = table[i];
+    const std::string below = i == 0 ? "link0" : "table" + std::to_string(i);
+    out << "<link name='table" << i + 1 << "'>" << on_table[i].xml() << "</link>\n<joint name='turn" << i + 1
+        << "' type='revolute'><parent link='" << below << "'/><child link='table" << i + 1 << "'/><origin xyz='"
+        << text(joint.origin) << "' rpy='" << text(joint.rpy) << "'/><axis xyz='" << text(joint.axis)
+        << "'/><limit lower='" << joint.lower << "' upper='" << joint.upper
+        << "' velocity='1.5' effort='1'/></joint>\n";
+  }
+  out << (table.empty() ? "" : "<workpiece link='table" + std::to_string(table.size()) + "'/>\n") << "</robot>\n";
   return out.str();
 }
 
@@ -163,16 +191,23 @@ std::vector<ReferencePlace> ReferenceArm::places(const Joints& q) const {
   std::vector<ReferencePlace> places;
   Frame link = Frame::Identity();
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    if (i > 0) {
-      const Joint& joint = joints[i - 1];
-      const double at = q[static_cast<Eigen::Index>(i) - 1];
-      link = link * frame_of(joint.origin, joint.rpy);
-      link = joint.slides ? Frame(link * Eigen::Translation3d(at * joint.axis.normalized()))
-                          : Frame(link * Eigen::AngleAxisd(at, joint.axis.normalized()));
-    }
+    link = i > 0 ? link * moved(joints[i - 1], q[static_cast<Eigen::Index>(i) - 1]) : link;
     places.push_back({&solids[i], link * frame_of(solids[i].origin, solids[i].rpy)});
   }
+  link = Frame::Identity();
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    link = link * moved(table[i], q[static_cast<Eigen::Index>(joints.size() + i)]);
+    places.push_back({&on_table[i], link * frame_of(on_table[i].origin, on_table[i].rpy)});
+  }
   return places;
+}
+
+Eigen::Isometry3d ReferenceArm::workpiece() const {
+  Frame link = Frame::Identity();
+  for (const Joint& joint : table) {
+    link = link * moved(joint, 0);
+  }
+  return link;
 }
 
 double ReferenceArm::clearance(const Joints& q, const std::vector<ReferencePlace>& zones) const {

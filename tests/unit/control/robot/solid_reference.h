@@ -40,12 +40,20 @@ struct ReferenceArm {
   std::vector<Joint> joints;
   std::vector<ReferenceSolid> solids;  // of the base and of the links behind each joint; one each
   Vec3 tool = Vec3::Zero();
+  // The axes of a positioner next to the arm, and the bodies behind each; the last one is the workpiece.
+  std::vector<Joint> table{};
+  std::vector<ReferenceSolid> on_table{};
 
   // The arm of the robot cell, about.
   static ReferenceArm usual();
+  // The same with a table in front of it that turns, and also tilts if it has two axes.
+  static ReferenceArm with_table(int axes);
   static ReferenceArm any(std::mt19937& random);
   [[nodiscard]] std::string urdf() const;
+  // The axes of the table come after those of the arm.
   [[nodiscard]] std::vector<ReferencePlace> places(const Joints& q) const;
+  // The workpiece with the table at zero.
+  [[nodiscard]] Eigen::Isometry3d workpiece() const;
   // Of bodies that more than one joint is between and that do not touch with all joints at zero: m, at least `least`
   // of those that are in question.
   [[nodiscard]] double clearance(const Joints& q, const std::vector<ReferencePlace>& zones = {}) const;

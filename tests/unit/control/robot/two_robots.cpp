@@ -16,6 +16,14 @@ Eigen::Isometry3d frame_of(const std::vector<double>& base) {
   return frame;
 }
 
+// With a positioner, the frame of poses is the workpiece's.
+std::vector<double> base_of(const std::vector<double>& base, const ReferenceArm& arm) {
+  const Eigen::Isometry3d there = frame_of(base) * arm.workpiece();
+  const Vec3 place = 1000 * there.translation();
+  const Vec3 rpy = to_rpy(Quat(there.rotation())) * (180 / kPi);
+  return arm.table.empty() ? base : std::vector<double>{place[0], place[1], place[2], rpy[0], rpy[1], rpy[2]};
+}
+
 double radius(const ReferenceSolid& solid) {
   switch (solid.kind) {
     case ReferenceSolid::Kind::Box:
@@ -33,20 +41,22 @@ double radius(const ReferenceSolid& solid) {
 SharingRobots::SharingRobots(const std::vector<SharingRobot>& robots, double period_ms, bool shares,
                              std::vector<double> box)
     : box_(std::move(box)), reports_(robots.size()) {
+  arms_.reserve(robots.size());
   for (const SharingRobot& robot : robots) {
+    arms_.push_back(robot.table > 0 ? ReferenceArm::with_table(robot.table) : ReferenceArm::usual());
     Settings settings;
     settings.plan_in_tick = true;
     if (shares) {
       settings.name = robot.name;
       settings.cell_box = box_;
-      settings.base_in_cell = robot.base;
+      settings.base_in_cell = base_of(robot.base, arms_.back());
       for (const SharingRobot& other : robots) {
         if (other.name != robot.name) {
           settings.other_robots.push_back(other.name);
         }
       }
     }
-    cells_.push_back(std::make_unique<Cell>(robot.job, period_ms, 0, true, settings, arm_.urdf()));
+    cells_.push_back(std::make_unique<Cell>(robot.job, period_ms, 0, true, settings, arms_.back().urdf()));
     cells_.back()->in.drives[0].position = static_cast<std::int32_t>(robot.turned / 360 * 1'320'000);
     bases_.push_back(frame_of(robot.base));
   }
@@ -81,10 +91,10 @@ bool SharingRobots::enable() {
 
 std::vector<ReferencePlace> SharingRobots::places(std::size_t i) const {
   Joints q = Joints::Zero();
-  for (std::size_t k = 0; k < arm_.joints.size(); ++k) {
+  for (std::size_t k = 0; k < arms_[i].joints.size() + arms_[i].table.size(); ++k) {
     q[static_cast<Eigen::Index>(k)] = cells_[i]->out.command[k] * kPi / 180;
   }
-  std::vector<ReferencePlace> places = arm_.places(q);
+  std::vector<ReferencePlace> places = arms_[i].places(q);
   for (ReferencePlace& place : places) {
     place.frame = bases_[i] * place.frame;
   }

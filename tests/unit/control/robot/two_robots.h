@@ -19,11 +19,12 @@ struct SharingRobot {
   std::string job;
   std::vector<double> base{0, 0, 0, 0, 0, 0};  // mm, deg
   double turned = 90;                          // deg, where its first axis is at the start; the others are at 0
+  int table = 0;                               // axes of its positioner
 };
 
 class SharingRobots {
  public:
-  // All of them are the usual arm. `shares`: false to show what happens without it.
+  // All of them are the usual arm, some with a table. `shares`: false to show what happens without it.
   SharingRobots(const std::vector<SharingRobot>& robots, double period_ms, bool shares = true,
                 std::vector<double> box = {0, -700, 0, 1400, 700, 1400});
 
@@ -56,7 +57,7 @@ class SharingRobots {
  private:
   [[nodiscard]] std::vector<ReferencePlace> places(std::size_t i) const;
 
-  ReferenceArm arm_ = ReferenceArm::usual();
+  std::vector<ReferenceArm> arms_;
   std::vector<double> box_;
   std::vector<Eigen::Isometry3d> bases_;
   std::vector<std::unique_ptr<Cell>> cells_;
