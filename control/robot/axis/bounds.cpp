@@ -37,9 +37,10 @@ bool sane(double part) noexcept {
 }  // namespace
 
 AxisBounds::AxisBounds(const Axis& axis, const LineLimits& limits) noexcept
-    : own_{axis.lower, axis.upper, true, true, limits.velocity, limits.acceleration, limits.acceleration, limits.jerk},
-      least_(axis.lower),
-      greatest_(axis.upper),
+    : own_{axis.lowest(),       axis.highest(),      true,       true, limits.velocity,
+           limits.acceleration, limits.acceleration, limits.jerk},
+      least_(axis.lowest()),
+      greatest_(axis.highest()),
       endless_(axis.endless),
       most_(limits) {
   keep_ends();
@@ -51,7 +52,7 @@ void AxisBounds::set_factors(double acceleration, double jerk) noexcept {
 }
 
 void AxisBounds::apply_to(AxisMotion& motion) const noexcept {
-  motion.set_bounds(most_, endless_ ? -HUGE_VAL : lower_, endless_ ? HUGE_VAL : upper_);
+  motion.set_bounds(most_, lower_, upper_);
 }
 
 ErrorCode AxisBounds::change(int parameter, double value, const AxisUnits& units, const Present& now) noexcept {
@@ -112,7 +113,7 @@ void AxisBounds::keep_ends() noexcept {
 }
 
 bool AxisBounds::inside(double one, double other) const noexcept {
-  return endless_ || (std::min(one, other) >= lower_ - 1e-9 && std::max(one, other) <= upper_ + 1e-9);
+  return std::min(one, other) >= lower_ - 1e-9 && std::max(one, other) <= upper_ + 1e-9;
 }
 
 void AxisBounds::report(const AxisUnits& units, AxisReport& report) const noexcept {

@@ -48,6 +48,7 @@ class AxisBounds {
   }
   [[nodiscard]] double acceleration_factor() const noexcept { return acceleration_factor_; }
   [[nodiscard]] double jerk_factor() const noexcept { return jerk_factor_; }
+  // Returns whether it turns endlessly: a position in another turn is the same place.
   [[nodiscard]] bool endless() const noexcept { return endless_; }
   // Returns whether both positions are between the ends.
   [[nodiscard]] bool inside(double one, double other) const noexcept;

@@ -104,7 +104,7 @@ ErrorCode AxisMotions::guard(double seconds) const noexcept {
     return ErrorCode::State;
   }
   const AxisBounds& bounds = parts_.bounds;
-  if (parts_.state != AxisState::ContinuousMotion || bounds.endless()) {
+  if (parts_.state != AxisState::ContinuousMotion) {
     return ErrorCode::Ok;
   }
   const LineState next = parts_.motion.after(seconds);
@@ -171,16 +171,17 @@ void AxisMotions::note_velocity() noexcept {
 void AxisMotions::note_superimposed() noexcept {
   superimposed_.note();
   AxisFollowing& following = parts_.following;
-  if (!following.over() || parts_.state != AxisState::DiscreteMotion || !parts_.motion.at_rest()) {
+  const bool discrete = parts_.state == AxisState::DiscreteMotion;
+  if (!following.over() || !(discrete || parts_.state == AxisState::Stopping) || !parts_.motion.at_rest()) {
     return;
   }
-  if (owner_.any()) {
+  if (discrete && owner_.any()) {
     end_motion(ErrorCode::Ok);
   }
   if (following.synced()) {
     following.end_superimposed();
     parts_.motion.reset({following.state().position, 0, 0});
-    parts_.state = AxisState::Standstill;
+    parts_.state = discrete ? AxisState::Standstill : parts_.state;
   }
 }
 

@@ -59,7 +59,7 @@ ErrorCode CommandResolver::check_profile(const Command& command) const noexcept 
     return ErrorCode::JointLimit;
   }
   const double rest = end.position + ramp(end, 0, bounds.limits(1)).distance;
-  const bool clear = bounds.endless() || axis_service_of(command) == AxisService::PositionProfile || bounds.clear(rest);
+  const bool clear = axis_service_of(command) == AxisService::PositionProfile || bounds.clear(rest);
   return clear ? ErrorCode::Ok : ErrorCode::JointLimit;
 }
 

@@ -108,7 +108,7 @@ ErrorCode CommandResolver::check_way(const Command& command, const AxisOrder& or
   if (is_profile(axis_service_of(command))) {
     return check_profile(command);
   }
-  if (!goes_on_from(axis_service_of(command)) || parts_.bounds.endless()) {
+  if (!goes_on_from(axis_service_of(command))) {
     return ErrorCode::Ok;
   }
   const AxisBounds& bounds = parts_.bounds;

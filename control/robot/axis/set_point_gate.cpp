@@ -166,7 +166,7 @@ ErrorCode SetPointGate::check(double position, double hardness) const noexcept {
   const LineLimits limits = harder(hardness);
   const LineState next = after(position);
   const double margin = 1 + kPlanRounding;
-  if (!range_.endless && !may_be(position)) {
+  if (!may_be(position)) {
     return ErrorCode::JointLimit;
   }
   const double fastest = limits.velocity * margin + 2 * kNoise / period_;
@@ -186,7 +186,7 @@ ErrorCode SetPointGate::check(double position, double hardness) const noexcept {
   if (std::abs(speed_unloaded(next.velocity, sure, limits.jerk * period_, period_) - period_ * sure) > fastest) {
     return ErrorCode::Speed;
   }
-  return range_.endless || can_rest(next, limits) ? ErrorCode::Ok : ErrorCode::JointLimit;
+  return can_rest(next, limits) ? ErrorCode::Ok : ErrorCode::JointLimit;
 }
 
 }  // namespace indurop::robot

@@ -5,6 +5,8 @@
 
 #pragma once
 
+#include <cmath>
+
 #include "control/robot/kinematics/errors.h"
 #include "control/robot/path/profile.h"
 
@@ -13,8 +15,7 @@ namespace indurop::robot {
 class SetPointGate {
  public:
   struct Range {
-    double lower = 0, upper = 0;  // rad
-    bool endless = false;         // turns without end; lower and upper are ignored
+    double lower = -HUGE_VAL, upper = HUGE_VAL;  // rad
   };
   SetPointGate() = default;
   SetPointGate(const Range& range, const LineLimits& limits, double period) noexcept
@@ -41,9 +42,7 @@ class SetPointGate {
   // The next set point of the shortest way to zero acceleration.
   [[nodiscard]] LineState unloaded() const noexcept;
   // Returns whether the axis could still come to rest before its limit from that state.
-  [[nodiscard]] bool can_rest(const LineState& from) const noexcept {
-    return range_.endless || can_rest(from, limits_);
-  }
+  [[nodiscard]] bool can_rest(const LineState& from) const noexcept { return can_rest(from, limits_); }
   // Returns whether the acceleration is zero, except for rounding.
   [[nodiscard]] bool coasts() const noexcept;
 

@@ -25,7 +25,7 @@ ErrorCode SuperimposedMotion::check(const Command& command, const Own& own) cons
       own.waits) {
     return ErrorCode::State;
   }
-  if (coupled || parts_.state == AxisState::ContinuousMotion || parts_.bounds.endless()) {
+  if (coupled || parts_.state == AxisState::ContinuousMotion) {
     return ErrorCode::Ok;
   }
   // Position after both motions have ended.

@@ -120,9 +120,6 @@ bool TorqueMode::too_fast(double speed, double most, double resolution, double s
 // Returns whether the axis comes to rest before its end, including the speed that the torque adds until the drive
 // brakes.
 bool TorqueMode::rests_in_time(const Measured& now, const AxisBounds& bounds, double ahead) const noexcept {
-  if (bounds.endless()) {
-    return true;
-  }
   const double more = std::abs(push_.torque()) / push_.load().inertia * ahead;
   const auto rest = [&](double way) {
     const double faster = way * push_.torque() > 0 ? more : 0;

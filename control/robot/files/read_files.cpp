@@ -185,18 +185,24 @@ ArmShape shape_of(const Arm& arm) {
 
 namespace {
 
-// An endless axis ends where its drive cannot count any further: there the set points would stand still.
-void bound_endless(const FileNames& names, Arm& arm) {
+// Returns how far a drive counts in either direction, in rad: beyond that, its set points would stand still.
+double counted(const FileNames& names, std::size_t drive) {
   constexpr double kMostCounts = std::numeric_limits<std::int32_t>::max();
-  for (int i = 0; i < arm.count(); ++i) {
-    const auto own = [i](const std::vector<double>& values, double otherwise) {
-      const std::size_t k = values.size() > 1 ? at(i) : 0;
-      return k < values.size() ? values[k] : otherwise;
-    };
-    const double counts = std::abs(own(names.counts_per_turn, 0)) * std::max(1.0, std::abs(own(names.gear, 1)));
-    if (arm.axis(i).endless && counts > 0) {
-      arm.end_at(i, std::max(0.0, 2 * kPi * kMostCounts / counts - std::abs(radians(own(names.zero, 0)))));
-    }
+  const auto own = [drive](const std::vector<double>& values, double otherwise) {
+    const std::size_t k = values.size() > 1 ? drive : 0;
+    return k < values.size() ? values[k] : otherwise;
+  };
+  const double counts = std::abs(own(names.counts_per_turn, 0)) * std::max(1.0, std::abs(own(names.gear, 1)));
+  return counts > 0 ? std::max(0.0, 2 * kPi * kMostCounts / counts - std::abs(radians(own(names.zero, 0)))) : HUGE_VAL;
+}
+
+// An endless axis ends where its drive cannot count any further.
+void bound_endless(const FileNames& names, ArmModel& model) {
+  for (int i = 0; i < model.arm.count(); ++i) {
+    model.arm.end_at(i, counted(names, at(i)));
+  }
+  for (std::size_t i = 0; i < model.singles.size(); ++i) {
+    model.singles[i].farthest = counted(names, at(model.arm.count()) + i);
   }
 }
 
@@ -208,7 +214,7 @@ ReadFiles read_files(const FileNames& names) {
     read.errors.push_back(std::move(text).error());
   } else if (auto arm = arm_from_urdf(names.urdf, *text)) {
     read.model = std::move(arm).value();
-    bound_endless(names, read.model->arm);
+    bound_endless(names, *read.model);
     read.notes = read.model->notes;
     read.urdf = std::move(*text);
   } else {

@@ -87,12 +87,8 @@ std::string value_and_limits(const Axis& axis, double value) {
   const double unit = axis.slides() ? 0.001 : kPi / 180;
   std::ostringstream text;
   text << "is at " << with_unit(axis, value);
-  if (axis.endless) {
-    text << "; its drive counts from " << -axis.farthest / unit << " to " << axis.farthest / unit
-         << " (counts_per_turn)";
-  } else {
-    text << ", its limits are " << axis.lower / unit << " to " << axis.upper / unit;
-  }
+  text << (axis.endless ? "; its drive counts from " : ", its limits are ") << axis.lowest() / unit << " to "
+       << axis.highest() / unit << (axis.endless ? " (counts_per_turn)" : "");
   return text.str();
 }
 
@@ -104,8 +100,7 @@ std::string wrong_axis(const Arm& arm, int axis, std::optional<double> value) {
     return name + "follows from the pose; leave it out, or use JOINT";
   }
   const Axis& a = arm.axis(axis);
-  const bool beyond =
-      value && (a.endless ? !(std::abs(*value) <= a.farthest) : !(*value >= a.lower && *value <= a.upper));
+  const bool beyond = value && !(*value >= a.lowest() && *value <= a.highest());
   return beyond ? name + value_and_limits(a, *value) : "";
 }
 

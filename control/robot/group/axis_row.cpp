@@ -32,7 +32,7 @@ AxisRow::AxisRow(const GroupParts& parts, CommandTable& table, const ToolTravel*
     const Axis& axis = travel != nullptr ? parts.singles[at(i)] : parts.arm.axis(i);
     axes_[at(i)].set_up(axis, limits, scale_of(settings, axis, at(first + i)), settings.absolute, &table,
                         {{axes_.data(), count}, {gates_.data(), count}, cams_, &profiles_, i, first, travel});
-    gates_[at(i)] = SetPointGate({axis.lower, axis.upper, axis.endless}, limits, period_);
+    gates_[at(i)] = SetPointGate({axis.lowest(), axis.highest()}, limits, period_);
   }
 }
 

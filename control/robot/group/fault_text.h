@@ -37,14 +37,23 @@ inline void describe(const Fault& fault, const Clearance& clearance, FaultText& 
   }
 }
 
-// "axis 7 (turn): a drive reports a fault", if the fault has an axis.
+// "axis 7 (turn): a drive reports a fault"; of an end of its range, also where that is.
+inline void name_axis(const Fault& fault, const Axis& axis, FaultText& to) noexcept {
+  const double unit = axis.slides() ? 0.001 : kPi / 180;
+  if (fault.code == ErrorCode::JointLimit) {
+    std::snprintf(to, sizeof to, "axis %d (%.24s) would leave its range, %.6g to %.6g %s", fault.axis,
+                  axis.name.c_str(), axis.lowest() / unit, axis.highest() / unit, axis.slides() ? "mm" : "degrees");
+  } else {
+    std::snprintf(to, sizeof to, "axis %d (%.24s): %s", fault.axis, axis.name.c_str(), to_string(fault.code));
+  }
+}
+// The same if the fault has an axis.
 inline void name_axis(const Fault& fault, const Arm& arm, FaultText& to) noexcept {
   if (fault.axis < 1 || fault.axis > arm.count()) {
     std::snprintf(to, sizeof to, "%s", to_string(fault.code));
     return;
   }
-  std::snprintf(to, sizeof to, "axis %d (%.24s): %s", fault.axis, arm.axis(fault.axis - 1).name.c_str(),
-                to_string(fault.code));
+  name_axis(fault, arm.axis(fault.axis - 1), to);
 }
 
 // Adds "; axis 7 ends at 90 degrees" for each axis that moves the workpiece: the pose of a motion that is out of reach

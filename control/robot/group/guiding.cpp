@@ -153,11 +153,9 @@ void Guiding::brake_at_walls(Joints& velocity) const noexcept {
     const Axis& axis = robot_.parts.arm.axis(i);
     const double most = kGuidedPart * robot_.parts.joints.velocity[i];
     velocity[i] = std::clamp(velocity[i], -most, most);
-    if (!axis.endless) {
-      const double now = robot_.axes[i].commanded().position;
-      velocity[i] = std::min(velocity[i], std::max(0.0, axis.upper - kWallMargin - now) / kWallTime);
-      velocity[i] = std::max(velocity[i], -std::max(0.0, now - axis.lower - kWallMargin) / kWallTime);
-    }
+    const double now = robot_.axes[i].commanded().position;
+    velocity[i] = std::min(velocity[i], std::max(0.0, axis.highest() - kWallMargin - now) / kWallTime);
+    velocity[i] = std::max(velocity[i], -std::max(0.0, now - axis.lowest() - kWallMargin) / kWallTime);
   }
 }
 

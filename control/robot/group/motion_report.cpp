@@ -15,6 +15,7 @@ void put(const Vec3& metres, const Vec3& angle, std::array<double, 6>& to) noexc
 }  // namespace
 
 void MotionReport::report(bool commanded, Outputs& out) noexcept {
+  ranges_.step();
   const Joints now = robot_.commanded();
   const Pose pose = robot_.tip(now);
   if (tool_changes_ != robot_.tool.changes()) {

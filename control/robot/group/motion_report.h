@@ -4,13 +4,15 @@
 #pragma once
 
 #include "control/robot/group/conveyor_tracking.h"
+#include "control/robot/group/range_report.h"
 #include "control/robot/group/robot.h"
 
 namespace indurop::robot {
 
 class MotionReport {
  public:
-  MotionReport(Robot& robot, const ConveyorTracking& conveyor) noexcept : robot_(robot), conveyor_(conveyor) {}
+  MotionReport(Robot& robot, const ConveyorTracking& conveyor) noexcept
+      : robot_(robot), conveyor_(conveyor), ranges_(robot) {}
 
   // `commanded`: the set points are those of motions; otherwise they only follow the positions that the drives report.
   // Real-time safe.
@@ -22,6 +24,7 @@ class MotionReport {
 
   Robot& robot_;
   const ConveyorTracking& conveyor_;
+  RangeReport ranges_;
   Pose last_;                         // of the tool
   Twist last_moved_ = Twist::Zero();  // its speed
   unsigned tool_changes_ = 0;

@@ -28,7 +28,7 @@ void Tracking::join(const BeltEstimator& belt, const LineLimits& way, const Line
   const LineState now = gate_.state();
   const double from = phase_ == Phase::Off ? seen(belt.before()).position : now.position;
   const bool fresh = phase_ == Phase::Off;
-  SetPointGate gate({0, 0, true}, most, period_);
+  SetPointGate gate({}, most, period_);
   gate.stand(from);
   if (!fresh) {
     // Initializes the new gate with the present motion: two periods of it.

@@ -180,9 +180,8 @@ double Arm::volume(const Joints& q) const noexcept {
 int Arm::goes_beyond(const Joints& from, const Joints& to, double slack) const noexcept {
   for (int i = 0; i < count_; ++i) {
     const Axis& a = axis(i);
-    const bool inside =
-        a.endless ? std::isfinite(to[i]) && std::abs(to[i]) <= std::max(a.farthest, std::abs(from[i]))
-                  : to[i] >= std::min(a.lower, from[i]) - slack && to[i] <= std::max(a.upper, from[i]) + slack;
+    const bool inside = std::isfinite(to[i]) && to[i] >= std::min(a.lowest(), from[i]) - slack &&
+                        to[i] <= std::max(a.highest(), from[i]) + slack;
     if (!inside) {
       return i;
     }
@@ -193,7 +192,7 @@ int Arm::goes_beyond(const Joints& from, const Joints& to, double slack) const n
 int Arm::beyond_limits(const Joints& q, double slack) const noexcept {
   Joints inside = Joints::Zero();
   for (int i = 0; i < count_; ++i) {
-    inside[i] = axis(i).lower;
+    inside[i] = axis(i).lowest();
   }
   return goes_beyond(inside, q, slack);
 }

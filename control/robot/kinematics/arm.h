@@ -30,6 +30,9 @@ struct Axis {
   AxisKind kind = AxisKind::Turning;
   double farthest = HUGE_VAL;  // rad from 0 that the drive of an endless axis counts, in each direction
   [[nodiscard]] bool slides() const noexcept { return kind == AxisKind::Sliding; }
+  // The ends of its range; of an endless axis, those of what its drive counts.
+  [[nodiscard]] double lowest() const noexcept { return endless ? -farthest : lower; }
+  [[nodiscard]] double highest() const noexcept { return endless ? farthest : upper; }
 };
 
 // A joint of the chain: an axis itself, or a joint that a linkage moves with it.
@@ -90,7 +93,7 @@ class Arm {
   [[nodiscard]] int world_joint() const noexcept { return world_joint_; }
   // Returns whether this axis moves the workpiece, not the arm. They are the last axes.
   [[nodiscard]] bool moves_workpiece(int axis) const noexcept { return axis >= count_ - world_joint_; }
-  // Sets Axis::farthest of an endless axis.
+  // Sets Axis::farthest.
   void end_at(int axis, double farthest) noexcept { axes_[static_cast<std::size_t>(axis)].farthest = farthest; }
   // Returns the same arm without the axes of the workpiece. Its base's frame stands still where the workpiece is with
   // these axes at zero.

@@ -85,7 +85,7 @@ class Joint_motion : public testing::Test {
       for (int i = 0; i < kAxes; ++i) {
         const Axis& axis = test.arm.axis(i);
         gates[static_cast<std::size_t>(i)] =
-            SetPointGate({axis.lower, axis.upper, axis.endless},
+            SetPointGate({axis.lowest(), axis.highest()},
                          {test.limits.velocity[i], test.limits.acceleration[i], test.limits.jerk[i]}, test.period);
         gates[static_cast<std::size_t>(i)].stand(from[i]);
       }

@@ -28,7 +28,7 @@ TEST(Set_point_gate, Lets_the_fastest_moves_pass_from_end_to_end) {
   for (const double period : {0.001, 0.004, 0.01}) {
     for (const double from : {-2.0, 1.9, 2.0}) {
       for (const double to : {-2.0, -1.99, 0.3, 2.0}) {
-        SetPointGate sut({-2, 2, false}, kGateLimits, period);
+        SetPointGate sut({-2, 2}, kGateLimits, period);
         sut.stand(from);
         for (const double point : move(from, to, period, kGateLimits)) {
           ASSERT_EQ(sut.check(point, 1), ErrorCode::Ok) << from << " to " << to << " at " << point << ", " << period;
@@ -44,7 +44,7 @@ TEST(Set_point_gate, Is_not_disturbed_by_rounding) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> noise(-kNoise, kNoise);
   for (const double period : {0.0001, 0.00025, 0.001, 0.01}) {
-    SetPointGate sut({-2, 2, false}, kGateLimits, period);
+    SetPointGate sut({-2, 2}, kGateLimits, period);
     sut.stand(-1.5);
     for (const double exact : move(-1.5, 1.5, period, kGateLimits)) {
       const double point = exact + noise(random);
@@ -57,7 +57,7 @@ TEST(Set_point_gate, Is_not_disturbed_by_rounding) {
 // What hides behind rounding adds up.
 TEST(Set_point_gate, Refuses_a_jerk_a_hundredth_too_large) {
   const double period = 0.0001;
-  SetPointGate sut({-2, 2, false}, kGateLimits, period);
+  SetPointGate sut({-2, 2}, kGateLimits, period);
   sut.stand(0);
   LineState state;
   while (state.acceleration < kGateLimits.acceleration / 2) {
@@ -74,7 +74,7 @@ TEST(Set_point_gate, Refuses_a_jerk_a_hundredth_too_large) {
 }
 
 TEST(Set_point_gate, Names_the_limit_that_is_broken) {
-  SetPointGate sut({-2, 2, false}, kGateLimits, 0.001);
+  SetPointGate sut({-2, 2}, kGateLimits, 0.001);
   sut.stand(0);
   EXPECT_EQ(sut.check(std::nan(""), 1), ErrorCode::Value);
   EXPECT_EQ(sut.check(std::numeric_limits<double>::infinity(), 1), ErrorCode::Value);
@@ -86,7 +86,7 @@ TEST(Set_point_gate, Names_the_limit_that_is_broken) {
 }
 
 TEST(Set_point_gate, What_stands_beyond_its_end_may_only_come_back) {
-  SetPointGate sut({-2, 2, false}, kGateLimits, 0.001);
+  SetPointGate sut({-2, 2}, kGateLimits, 0.001);
   sut.stand(2.5);
   EXPECT_EQ(sut.check(2.5, 1), ErrorCode::Ok);
   EXPECT_EQ(sut.check(2.5 + 1e-9, 1), ErrorCode::JointLimit);
@@ -99,7 +99,7 @@ TEST(Set_point_gate, What_stands_beyond_its_end_may_only_come_back) {
 }
 
 TEST(Set_point_gate, A_harder_stop_has_harder_limits) {
-  SetPointGate sut({-2, 2, false}, kGateLimits, 0.01);
+  SetPointGate sut({-2, 2}, kGateLimits, 0.01);
   sut.stand(0);
   const double point = 1.2 * kGateLimits.jerk * 1e-6;
   EXPECT_EQ(sut.check(point, 1), ErrorCode::Jerk);
@@ -108,7 +108,7 @@ TEST(Set_point_gate, A_harder_stop_has_harder_limits) {
 
 TEST(Set_point_gate, Refuses_what_could_not_come_to_rest_before_the_end) {
   const double period = 0.004;
-  SetPointGate sut({-2, 2, false}, kGateLimits, period);
+  SetPointGate sut({-2, 2}, kGateLimits, period);
   sut.stand(-2);
   // On to a place beyond the end: refused long before it.
   double last = -2;
@@ -137,7 +137,7 @@ TEST(Set_point_gate, Whatever_comes_and_whenever_it_brakes_no_limit_is_broken) {
   for (int round = 0; round < 3000; ++round) {
     const double period = round % 3 == 0 ? 0.001 : round % 3 == 1 ? 0.004 : 0.01;
     const LineLimits limits{0.5 + 5 * part(random), 2 + 30 * part(random), 20 + 300 * part(random)};
-    SetPointGate sut({-1, 1, false}, limits, period);
+    SetPointGate sut({-1, 1}, limits, period);
     const double start = 2 * part(random) - 1;
     sut.stand(start);
     double p0 = start;
@@ -185,7 +185,7 @@ TEST(Set_point_gate, Whatever_comes_and_whenever_it_brakes_no_limit_is_broken) {
 // As quick as a plan in continuous time, up to two periods.
 TEST(Set_point_gate, Brakes_as_fast_as_can_be) {
   const double period = 0.001;
-  SetPointGate sut({-100, 100, false}, kGateLimits, period);
+  SetPointGate sut({-100, 100}, kGateLimits, period);
   sut.stand(0);
   for (const double point : move(0, 3, period, kGateLimits)) {
     sut.pass(point, 1);

@@ -107,7 +107,7 @@ TEST_F(Splines, Through_random_points_keep_all_limits_and_pass_them) {
     std::vector<SetPointGate> gates;
     for (int a = 0; a < arm.count(); ++a) {
       const Axis& axis = arm.axis(a);
-      gates.emplace_back(SetPointGate::Range{axis.lower, axis.upper, axis.endless},
+      gates.emplace_back(SetPointGate::Range{axis.lowest(), axis.highest()},
                          LineLimits{limits.velocity[a], limits.acceleration[a], limits.jerk[a]}, kStep);
       gates.back().stand(from[a]);
     }

@@ -117,7 +117,7 @@ class Turning {
     std::vector<SetPointGate> gates;
     for (int k = 0; k < limited.arm.count(); ++k) {
       const Axis& axis = limited.arm.axis(k);
-      gates.emplace_back(SetPointGate::Range{axis.lower, axis.upper, axis.endless}, limits_of_axis(limits, k), period_);
+      gates.emplace_back(SetPointGate::Range{axis.lowest(), axis.highest()}, limits_of_axis(limits, k), period_);
       gates.back().stand(from[k]);
     }
     follower.add(limited.planner.segment(), Blend{});
