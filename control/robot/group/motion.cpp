@@ -121,6 +121,8 @@ void Group::take_plan() noexcept {
   }
   if (plan->fault.code == ErrorCode::Planner) {
     break_down("the thread that plans motions", plans_.desk().crash());
+  } else if (plan->fault.code != ErrorCode::OtherRobot && !plan->fault.ok() && resuming_.try_joints()) {
+    return;
   } else if (!plan->fault.ok()) {
     motion_failed(plan->fault, plan->segment.source, plan->segment.ticket);
   } else {

@@ -91,9 +91,7 @@ ErrorCode Resuming::resume() noexcept {
   }
   return_ = Return::ToPath;
   robot_.states.move(true);
-  const PlanRequest before = plans_.request();
   ask_for_way_back(to);
-  plans_.set_request(before);
   return ErrorCode::Ok;
 }
 
@@ -103,15 +101,50 @@ bool Resuming::is_near(const Joints& place) const noexcept {
          (place - robot_.commanded()).head(robot_.count()).cwiseAbs().maxCoeff() <= kFarthestTurned;
 }
 
-// Requests no motion if the robot is already there.
+// Requests no motion if the robot is already there. Next to a positioner, it would be no line on the workpiece if it
+// were one of the joints.
 void Resuming::ask_for_way_back(const Joints& to) noexcept {
-  if ((to - robot_.commanded()).head(robot_.count()).cwiseAbs().maxCoeff() > kSameJoints) {
-    MoveCommand back;
-    back.straight = true;
-    back.target.joints = to;
-    back.speed = speed_to(to);
-    plans_.ask({back, nullptr, robot_.commanded(), false});
+  back_to_ = to;
+  on_workpiece_ = robot_.parts.arm.world_joint() > 0;
+  if ((to - robot_.commanded()).head(robot_.count()).cwiseAbs().maxCoeff() <= kSameJoints) {
+    return;
   }
+  if (!on_workpiece_) {
+    ask_in_joint_space();
+    return;
+  }
+  MoveCommand back;
+  back.move = Move::Line;
+  back.exact = true;
+  back.target.is_pose = true;
+  back.target.pose = robot_.tip(to);
+  back.target.held = robot_.tool.inverse().held();
+  back.speed = std::min(kSlowly, kTipSlowly / robot_.parts.tool.velocity);
+  ask(back);
+}
+
+void Resuming::ask_in_joint_space() noexcept {
+  MoveCommand back;
+  back.straight = true;
+  back.speed = speed_to(back_to_);
+  ask(back);
+}
+
+// The last request is that of the job, which it may have to make again.
+void Resuming::ask(MoveCommand back) noexcept {
+  const PlanRequest before = plans_.request();
+  back.target.joints = back_to_;
+  plans_.ask({back, nullptr, robot_.commanded(), false});
+  plans_.set_request(before);
+}
+
+bool Resuming::try_joints() noexcept {
+  if ((return_ != Return::ToPath && return_ != Return::FromInterrupt) || !on_workpiece_) {
+    return false;
+  }
+  on_workpiece_ = false;
+  ask_in_joint_space();
+  return true;
 }
 
 void Resuming::begin_from_interrupt(const Joints& to) noexcept {

@@ -38,6 +38,9 @@ class Resuming {
   void cancel_way_back() noexcept { return_ = Return::None; }
   // Begins the way back to where an interrupt left the path.
   void begin_from_interrupt(const Joints& to) noexcept;
+  // The way back could not be planned. Returns whether another one is requested: straight in joint space instead of on
+  // the workpiece.
+  [[nodiscard]] bool try_joints() noexcept;
   // The robot is where the job left its path, or one motion further back.
   void end_way_back() noexcept;
   [[nodiscard]] bool is_near(const Joints& place) const noexcept;
@@ -60,6 +63,8 @@ class Resuming {
   void note(const Passed& passed) noexcept;
   [[nodiscard]] double speed_to(const Joints& to) const noexcept;
   void ask_for_way_back(const Joints& to) noexcept;
+  void ask_in_joint_space() noexcept;
+  void ask(MoveCommand back) noexcept;
   void say_how_far(const Joints& to) noexcept;
 
   Robot& robot_;
@@ -70,6 +75,8 @@ class Resuming {
   int aside_tool_ = 0;
   bool asked_ = false;  // a plan was being made
   Return return_ = Return::None;
+  bool on_workpiece_ = false;  // the way back is a line on the workpiece
+  Joints back_to_ = Joints::Zero();
   std::array<Passed, 32> passed_;
   std::size_t passed_count_ = 0;
   std::size_t passed_known_ = 0;  // the last ones of them, which were not overwritten

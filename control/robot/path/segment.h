@@ -58,6 +58,7 @@ struct MoveCommand {
   int source = 0;            // number that the caller uses for it
   std::uint32_t ticket = 0;  // its number among the motions of a job, from 1
   bool alone = false;        // is not joined with neighbouring lines into one path
+  bool exact = false;        // of lines: rejected unless it leads to the joints of the target, too
   Wave wave{};               // across lines, circles and splines
   std::uint32_t seed = 0;    // of a search for a way
   double within = 0;         // s, that this search may take; 0: any time

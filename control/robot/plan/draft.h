@@ -15,6 +15,14 @@ struct Draft {
   PlanningWork work;
   bool elbow_given = false;  // the command says where the elbow is at the end
   Wave wave{};               // that the path gets once its places are known
+  bool exact = false;        // the path is rejected if it ends elsewhere than at `end`
+  Joints end = Joints::Zero();
+
+  // Returns whether the path does not lead to the joints to which it has to.
+  [[nodiscard]] bool misses_end() const noexcept {
+    constexpr double kSameJoints = 1e-9;  // rad or m
+    return exact && (segment.to - end).cwiseAbs().maxCoeff() > kSameJoints;
+  }
 
   // Sets the number of the command that a chain follows at a place, for a fault that is found there.
   void blame(double place) noexcept {

@@ -112,8 +112,9 @@ Fault PathSurvey::finish() noexcept {
     tip.note(samples_[static_cast<std::size_t>(i)]);
   }
   s.tip_speed = tip.farthest() * count_ / s.length;
-  return s.joint_path == nullptr && misses_orientation(places_.arm(), s.end, s.to) ? Fault{ErrorCode::Unreachable}
-                                                                                   : Fault{};
+  const bool misses =
+      draft_.misses_end() || (s.joint_path == nullptr && misses_orientation(places_.arm(), s.end, s.to));
+  return {misses ? ErrorCode::Unreachable : ErrorCode::Ok};
 }
 
 bool PathSurvey::find(double place, const Joints& near, Joints& q) const noexcept {

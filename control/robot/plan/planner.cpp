@@ -29,6 +29,7 @@ void Planner::begin(const Joints& from, double acceleration) noexcept {
   draft_.segment = {};
   draft_.wave = {};
   draft_.elbow_given = false;
+  draft_.exact = false;
   elbow_.reset();
   draft_.segment.acceleration = acceleration;
   draft_.segment.from = from;
@@ -48,9 +49,13 @@ Fault Planner::begin(const MoveCommand& command, const Joints& from) noexcept {
     const Fault fault = check_workspace();
     return fault.ok() ? begin_clearance() : fault;
   }
+  draft_.exact = command.exact;
+  draft_.end = command.target.joints;
   if (draft_.segment.length > 0) {
     draft_.wave = draft_.segment.way > 0 ? command.wave : Wave{};
     begin_elbow();
+  } else if (draft_.misses_end()) {
+    return {ErrorCode::Unreachable};
   }
   return {};
 }
