@@ -9,7 +9,10 @@ namespace {
 
 constexpr double kSlowestPace = 0.02;  // part of full speed below which a path counts as singular
 constexpr double kNearlyOne = 1.02;
-constexpr int kMostSearches = 3;  // another search is worthwhile, since slowing down everywhere costs time
+// Another search is worthwhile: slowing down everywhere costs time, and where the tool has a constant speed, that is
+// lower than the one asked for.
+constexpr int kMostSearches = 5;
+constexpr double kExact = 1.001;  // the speed asked for, as far as more searches are worth their time
 constexpr int kMostRehearsals = 3;
 constexpr int kLastRehearsal = 16;  // of what may no longer be rejected for being slow
 // Factor by which the motion is too fast in one place above which another search does not help.
@@ -141,7 +144,8 @@ void MotionTiming::rehearse() noexcept {
 void MotionTiming::end_rehearsal() noexcept {
   const bool timing = stage_ == Stage::RehearseTiming;
   const double slower = rehearsal_.result().factor();
-  if (timing && slower > kNearlyOne && slower <= kHopeless && searches_ < kMostSearches) {
+  const bool searches = slower > kNearlyOne ? slower <= kHopeless : slower > kExact && !crawls();
+  if (timing && searches && searches_ < kMostSearches) {
     ++searches_;
     search_.refine();
     stage_ = Stage::Search;

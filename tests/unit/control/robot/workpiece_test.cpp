@@ -202,9 +202,9 @@ TEST_F(Workpiece, A_speed_of_the_tool_limits_a_table_that_turns_alone) {
     run("MOVJ A\nMOVL HERE AXIS 7 90" + speed + "\n");
     return fastest_turn;
   };
-  EXPECT_NEAR(fastest(" SPEED 20 mm/s"), degrees(0.198), degrees(0.002));
-  EXPECT_NEAR(fastest(" SPEED 90 mm/s"), degrees(0.89), degrees(0.01));
-  EXPECT_NEAR(fastest(" SPEED 2%"), degrees(0.03), 1e-3);
+  EXPECT_NEAR(fastest(" SPEED 20 mm/s"), degrees(0.2), degrees(0.0004));
+  EXPECT_NEAR(fastest(" SPEED 90 mm/s"), degrees(0.9), degrees(0.0018));
+  EXPECT_NEAR(fastest(" SPEED 2%"), degrees(0.03), degrees(0.00006));
   EXPECT_GT(fastest(""), degrees(1));
 }
 
