@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "control/robot/files/check_calls.h"
+#include "control/robot/files/check_slow_axes.h"
 #include "control/robot/files/check_splines.h"
 #include "control/robot/files/check_workpiece.h"
 #include "control/robot/files/read_bodies.h"
@@ -239,6 +240,7 @@ ReadFiles read_files(const FileNames& names) {
     sort_out(check_calls(read.book), read);
     sort_out(check_loads(read.book, read.model->dynamics), read);
     sort_out(check_speeds(read.book, names.tool_speed), read);
+    sort_out(check_slow_axes(read.book, *read.model, names.tool_speed), read);
     if (read.errors.empty()) {
       ReadBodies bodies = read_bodies(*read.model, read.book, names.urdf, names.ignored, names.clearance);
       read.clearance = std::move(bodies.clearance);

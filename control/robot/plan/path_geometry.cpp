@@ -222,6 +222,11 @@ Fault find_goals(const Places& places, const MoveCommand& command, Draft& draft,
   return {};
 }
 
+double arc_way(const Vec3& start, const Vec3& mid, const Vec3& end) noexcept {
+  Arc arc;
+  return arc.through(start, mid, end) ? arc.way() : 0;
+}
+
 void make_path(const Places& places, const MoveCommand& command, const JointPath& path, Draft& draft) noexcept {
   Segment& s = draft.segment;
   s.to = path.end();

@@ -17,6 +17,8 @@ Fault make_path(const Places& places, const MoveCommand& command, Draft& draft) 
 Fault find_goals(const Places& places, const MoveCommand& command, Draft& draft, Solutions& goals) noexcept;
 // Makes the path of a free motion, which is not changed until it has ended; 0 long if it is there already.
 void make_path(const Places& places, const MoveCommand& command, const JointPath& path, Draft& draft) noexcept;
+// Returns the length of the arc through three places, in m; 0 if they are on one line.
+[[nodiscard]] double arc_way(const Vec3& start, const Vec3& mid, const Vec3& end) noexcept;
 // Makes the path of a chain, which is not changed until the motion has ended. Errors: Value.
 Fault make_path(const ToolPath& chain, Draft& draft) noexcept;
 

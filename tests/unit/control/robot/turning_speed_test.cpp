@@ -9,6 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "control/robot/files/check_slow_axes.h"
+#include "control/robot/files/read_files.h"
 #include "group_cell.h"
 
 namespace indurop::robot {
@@ -97,6 +99,38 @@ TEST_P(Turning_speed, Is_the_one_that_was_asked_for) {
   EXPECT_GT(many, 0);
   EXPECT_GT(least, 0.998);
   EXPECT_LT(fastest, 1.005);
+}
+
+// The table needs longer than the line at this speed: the figures of the warning are those of the set points.
+TEST_P(Turning_speed, Is_known_before_if_the_table_is_too_slow_for_it) {
+  const std::string axis = tilts() ? "AXIS 8 " : "AXIS 7 ";
+  const std::string job = "POINT A = POSE 80 -60 150 RPY 180 0 0" + std::string(tilts() ? " AXIS 7 0 " : " ") + axis +
+                          "0\nPOINT B = POSE -80 -60 150 RPY 180 0 0\nPOINT C = POSE 0 -30 150 RPY 180 0 0\nMOVJ A\n"
+                          "SPEED 200 mm/s\nMOVL B " +
+                          axis + "-160\nMOVC C A " + axis +
+                          "0\nMOVL B\nSPEED 20 mm/s\n"
+                          "MOVL A " +
+                          axis + "10\nLOOP 2\nMOVL B " + axis + "170 SPEED 500 mm/s\nEND\n";
+  ReadJobs read = parse_jobs({{"main.job", job}}, shape_of(arm_of(GetParam())));
+  ASSERT_TRUE(read.diagnostics.empty()) << base::to_text(read.diagnostics);
+  const std::vector<base::Diagnostic> said =
+      check_slow_axes(read.book, arm_from_urdf("arm.urdf", urdf_of(GetParam())).value(), 1000);
+  const std::string axis_8 =
+      "axis 8 (turn): its 160 degrees take 1.396 s at full speed, 114.6 degrees/s, so the tool moves at ";
+  const std::string axis_7 =
+      "axis 7 (turn): its 160 degrees take 1.862 s at full speed, 85.94 degrees/s, so the tool moves at ";
+  const std::string because = ":1: warning: SPEED 200 mm/s is too fast for " + (tilts() ? axis_8 : axis_7);
+  EXPECT_EQ(base::to_text(said), "main.job:6" + because + (tilts() ? "114.6" : "85.94") + " mm/s at most\nmain.job:7" +
+                                     because + (tilts() ? "125" : "93.79") + " mm/s at most\n");
+  const std::vector<double> figures = tilts() ? std::vector{114.6, 125.0} : std::vector{85.94, 93.79};
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    std::vector<double> found = speeds(job, 6 + i);
+    ASSERT_FALSE(found.empty());
+    std::sort(found.begin(), found.end());
+    const double usual = found[found.size() * 3 / 4];
+    EXPECT_LT(usual, 1.001 * figures[i]);
+    EXPECT_GT(usual, 0.97 * figures[i]);  // axes keep a margin to their full speed
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of_tables, Turning_speed, testing::Values("turntable", "tilt_table"));
