@@ -22,9 +22,9 @@ void Jogging::step(const JogRequest& jog, bool permitted) noexcept {
   const bool enabled = enabling_switch_.holds(jog.enabled, jog.beat, robot_.period) && permitted;
   const auto* const wanted = std::find_if(jog.speed.begin(), jog.speed.end(), [](double v) { return v != 0; });
   const int most = jog.frame == JogFrame::Joint ? robot_.count() : 6;
-  const WorkFrame* const work = jog.frame == JogFrame::Work ? work_frame(jog.work.view()) : nullptr;
-  const bool known = jog.frame >= JogFrame::Joint && (jog.frame < JogFrame::Work || work != nullptr);
-  const Quat axes = work != nullptr ? work->pose.orientation : Quat::Identity();
+  const std::optional<Quat> directions = axes_of(jog);
+  const bool known = directions.has_value();
+  const Quat axes = directions.value_or(Quat::Identity());
   int index = enabled && known && wanted != jog.speed.end() ? static_cast<int>(wanted - jog.speed.begin()) : -1;
   index = index < most && index >= 0 && std::abs(*wanted) <= 100 ? index : -1;
   const double speed = index >= 0 ? *wanted / 100 : 0;
@@ -45,6 +45,26 @@ void Jogging::step(const JogRequest& jog, bool permitted) noexcept {
     part_ = 1;
     begin();
   }
+}
+
+// Returns the axes along which the frame leads, as seen from that of poses; nothing if there is no such frame.
+std::optional<Quat> Jogging::axes_of(const JogRequest& jog) const noexcept {
+  switch (jog.frame) {
+    case JogFrame::Joint:
+    case JogFrame::Base:
+    case JogFrame::Tool:
+      return Quat::Identity();
+    case JogFrame::World:
+      return Quat(robot_.parts.arm.world(robot_.commanded()).turn);
+    case JogFrame::Work:
+      if (const WorkFrame* const work = work_frame(jog.work.view()); work != nullptr) {
+        return work->pose.orientation;
+      }
+      break;
+    case JogFrame::Hand:
+      break;
+  }
+  return std::nullopt;
 }
 
 const WorkFrame* Jogging::work_frame(std::string_view name) const noexcept {

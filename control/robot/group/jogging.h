@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "control/robot/group/enabling_switch.h"
@@ -30,6 +31,7 @@ class Jogging {
 
  private:
   void begin() noexcept;
+  [[nodiscard]] std::optional<Quat> axes_of(const JogRequest& jog) const noexcept;
   [[nodiscard]] const WorkFrame* work_frame(std::string_view name) const noexcept;
   [[nodiscard]] MoveCommand axis_motion(int axis, double part) const noexcept;
   [[nodiscard]] MoveCommand tip_motion(int direction, double part) const noexcept;
@@ -42,7 +44,7 @@ class Jogging {
   bool blocked_ = false;
   double part_ = 1;  // part of the longest distance
   JogFrame frame_ = JogFrame::Joint;
-  Quat axes_ = Quat::Identity();  // of a work frame
+  Quat axes_ = Quat::Identity();  // of the frame
   int index_ = -1;                // of the axis or the direction; -1: no jogging is requested
   double speed_ = 0;              // part of the maximum speed, with its sign
 };

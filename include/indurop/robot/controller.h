@@ -113,8 +113,9 @@ class Signals {
 };
 
 // Jogging while the group is in standby: one axis, or the tip along or about one direction.
-// Hand: the arm gives way to a hand that pushes it, in manual mode only.
-enum class JogFrame : std::int16_t { Joint, Base, Tool, Work, Hand };
+// Base: the frame of poses, which is that of the workpiece if axes turn it; World: the base that stands still. Hand:
+// the arm gives way to a hand that pushes it, in manual mode only.
+enum class JogFrame : std::int16_t { Joint, Base, Tool, Work, Hand, World };
 struct JogRequest {
   bool enabled = false;  // the enabling device; without it the robot stops
   JogFrame frame = JogFrame::Joint;

@@ -151,7 +151,7 @@ TEST_F(RobotNode, Manual_mode_moves_it_slowly_and_only_with_the_enabling_switch)
   EXPECT_GT(number("PLC_ROBOT::ROBOT_ARM.position[1]"), from + 5) << "its x is the base's y";
   const Outcome unknown = indurop({"robot", "jog", "x+", "--frame", "palet"});
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_THAT(unknown.err, testing::HasSubstr("there is no work frame 'palet': base, tool, pallet"));
+  EXPECT_THAT(unknown.err, testing::HasSubstr("there is no work frame 'palet': base, tool, world, pallet"));
 
   const int wanted = next_request();
   set("PLC_ROBOT::ROBOT_MODULE_SERVICE",

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 #include <optional>
 
 #include "control/robot/files/teach.h"
@@ -16,6 +17,8 @@
 
 namespace indurop::tools {
 namespace {
+
+constexpr int kWorkFrame = 3;  // ROBOT_JOG.eFrame
 
 struct Direction {
   int frame = 0;  // ROBOT_JOG.eFrame
@@ -31,8 +34,9 @@ std::optional<Direction> read_direction(const Hand& hand) {
   if (word.size() < 2 || (word.back() != '+' && word.back() != '-')) {
     return std::nullopt;
   }
-  const int frame = hand.frame.empty() || hand.frame == "base" ? 1 : hand.frame == "tool" ? 2 : 3;
-  Direction out{frame, 0, word.back() == '+' ? 1.0 : -1.0};
+  static const std::map<std::string_view, int> kFrames{{"", 1}, {"base", 1}, {"tool", 2}, {"world", 5}};
+  const auto frame = kFrames.find(hand.frame);
+  Direction out{frame == kFrames.end() ? kWorkFrame : frame->second, 0, word.back() == '+' ? 1.0 : -1.0};
   word.pop_back();
   if (word.size() == 2 && word[0] == 'j' && word[1] >= '1' && word[1] <= '8') {
     out.frame = 0;
@@ -98,8 +102,8 @@ bool knows_frame(Context& context, const RobotChoice& choice, const std::string&
       std::find(listed.frames.begin(), listed.frames.end(), frame) != listed.frames.end()) {
     return true;
   }
-  context.out.error(fmt::format("there is no work frame '{}': base, tool{}{}", frame, listed.frames.empty() ? "" : ", ",
-                                fmt::join(listed.frames, ", ")));
+  context.out.error(fmt::format("there is no work frame '{}': base, tool, world{}{}", frame,
+                                listed.frames.empty() ? "" : ", ", fmt::join(listed.frames, ", ")));
   return false;
 }
 
@@ -135,8 +139,7 @@ int jog(Context& context, const RobotChoice& choice, const Hand& hand) {
     context.out.error(fmt::format("'{}' is no direction: J1+ to J8-, x+ y+ z+ rx+ ry+ rz+, or with -", hand.direction));
     return kUsage;
   }
-  constexpr int kWork = 3;
-  const bool work = direction->frame == kWork;
+  const bool work = direction->frame == kWorkFrame;
   if (work && !knows_frame(context, choice, hand.frame)) {
     return kUsage;
   }

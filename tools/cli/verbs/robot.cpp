@@ -97,7 +97,7 @@ void declare_jog(base::Options& app, Context& context, RobotOptions& options) {
       .add("direction", "AXIS+|AXIS-", hand.direction,
            "Joint J1+ to J8-, or direction of the tip: x+ y+ z+ rx+ ry+ rz+, or with -")
       .required();
-  command.add("--frame", "base|tool|FRAME", hand.frame,
+  command.add("--frame", "base|tool|world|FRAME", hand.frame,
               "Frame of the directions x to rz; a work frame by its name (default: base)");
   command.add("--speed", "PERCENT", hand.percent, "Percentage of the maximum speed for jogging, 250 mm/s (default: 10)")
       .range(0.1, 100);

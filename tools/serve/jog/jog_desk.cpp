@@ -27,6 +27,7 @@ using base::Problem;
 constexpr double kMaxSpeed = 100;  // %
 constexpr int kWorkFrame = 3;      // ROBOT_JOG.eFrame
 constexpr int kByHand = tools::GuidedRecord::kByHand;
+constexpr int kWorld = 5;
 
 // Converts to ROBOT_JOG.eFrame. Any word other than these is a work frame, which the robot accepts or rejects.
 Result<int, Problem> number_of(const std::string& frame) {
@@ -34,7 +35,10 @@ Result<int, Problem> number_of(const std::string& frame) {
   constexpr std::size_t kLongest = 31;  // size of ROBOT_JOG.frame
   const auto usual = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
   if (frame.empty() || frame.size() > kLongest || !std::all_of(frame.begin(), frame.end(), usual)) {
-    return Problem{"frame is axes, base, tool, hand or the name of a work frame"};
+    return Problem{"frame is axes, base, tool, world, hand or the name of a work frame"};
+  }
+  if (frame == "world") {
+    return kWorld;
   }
   if (frame == "hand") {
     return kByHand;

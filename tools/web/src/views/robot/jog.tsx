@@ -35,9 +35,10 @@ interface Props {
   down: string;  // why the robot task does not run; empty: it runs
   names: string[];
   work_frames: string[];
+  positioner: boolean;  // axes move the workpiece, and the base frame with it
 }
 
-export function Jog({ board, scope, state, down, names, work_frames }: Props) {
+export function Jog({ board, scope, state, down, names, work_frames, positioner }: Props) {
   const [frame, set_frame] = useState("axes");
   const [speed, set_speed] = useState(10);
   const [message, set_message] = useState("");
@@ -85,7 +86,7 @@ export function Jog({ board, scope, state, down, names, work_frames }: Props) {
   const request_service = (opcode: number, success: string) =>
     void write({ ROBOT_MODULE_SERVICE: `{eOpCode: ${opcode}, nRequest: ${(state?.acknowledged ?? 0) + 1}}` }, success);
   const axes = frame === "axes" ? (state?.joint ?? []).map((_, i) => names[i] ?? `axis ${i + 1}`) : DIRECTIONS;
-  const frames = [...FRAMES, ...work_frames.map((name): [string, string] => [name, `Tool, frame ${name}`])];
+  const frames = [...FRAMES, ...(positioner ? [["world", "Tool, world frame"] as [string, string]] : []), ...work_frames.map((name): [string, string] => [name, `Tool, frame ${name}`])];
   const override = override_requested ?? (Number.isFinite(state?.override_set) ? state!.override_set : 100);
   useEffect(() => set_override_requested((now) => (now === state?.override_set ? null : now)), [override_requested, state?.override_set]);
   const button = (index: number, sign: number, name: string) => (

@@ -254,7 +254,8 @@ export function Robot() {
           <p class="panel warn">{value.described ? "The arm's description (property urdf of its module) cannot be read, so only numbers are shown." : "This server does not provide the arm's description, so only numbers are shown."}</p>)}
         <div>
         {scope !== null && <Question board={board.board} scope={scope} down={down} may_answer={may_operate} />}
-        {may_operate && scope !== null && <Jog board={board.board} scope={scope} state={state} down={down} names={names} work_frames={robot?.frames ?? []} />}
+        {may_operate && scope !== null && <Jog board={board.board} scope={scope} state={state} down={down} names={names} work_frames={robot?.frames ?? []}
+          positioner={robot?.urdf.includes("<workpiece") ?? false} />}
         {may_operate && found?.guides && robot && <Guiding board={board.board} module={robot.module} scope={found.name} state={state} down={down} may_write={may_tune} />}
         {may_tune && scope !== null && robot && <Calibration board={board.board} module={robot.module} scope={scope} state={state} down={down} work_frames={robot.frames} />}
         <section class="panel" aria-label="Robot in numbers">
