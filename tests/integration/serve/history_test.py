@@ -183,6 +183,30 @@ def test_says_what_is_not_known(setting):
     setting.end(back)
 
 
+def test_follows_a_node(setting):
+    start(setting, record=True)
+    server = setting.start_server("--recordings", setting.folder / "recordings")
+    listed = {one["name"]: one["taped"] for one in server.get(f"{API}/boards/{setting.node}/variables").json()["variables"]}
+    assert all(listed[name.split(".")[0].split("[")[0]] for name in NAMES), listed
+    page = server.get(path_of(setting, NAMES, follow="true")).json()
+    assert all(one["before"] and not one["values"] and not one["gaps"] for one in page["variables"]), page
+    begin, whole = page["end_ns"], {name: [] for name in NAMES}
+    before = {one["name"]: one["before"]["value"] for one in page["variables"]}
+    while page["end_ns"] < begin + 3 * SECOND:
+        page = server.get(path_of(setting, NAMES, follow="true", next=page["next"], most=500)).json()
+        for one in page["variables"]:
+            assert one["gaps"] == [], one["gaps"]
+            whole[one["name"]] += [(value["time_ns"], value["value"]) for value in one["values"]]
+    expected, _, _ = read(server, setting, NAMES, begin, page["end_ns"])
+    for name in NAMES:
+        assert whole[name] == expected[name]["values"], name
+        assert before[name] == expected[name]["before"]["value"], name
+    counts = [value for _, value in whole["past::count"]]
+    assert counts == list(range(before["past::count"] + 1, before["past::count"] + 1 + len(counts))) and len(counts) > 2000
+    for wrong in ("?name=past::count&follow=1", "?name=past::count&follow=false", "?follow=true"):
+        assert server.get(f"{API}/boards/{setting.node}/history{wrong}").status == 400, wrong
+
+
 def test_has_no_more_than_it_can(setting):
     start(setting)
     server = setting.start_server()

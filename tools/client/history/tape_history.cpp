@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::int64_t kLeastPatienceNs = 2'000'000;
 
-// Returns true if the tape is that of the store, and both are those of the run.
-bool belong_together(const tape::Follower& follower, const vars::Store& store, const RunView& run) {
+// Returns true if the tape is that of the run, and this is one of a real node.
+bool is_real(const tape::Follower& follower, const RunView& run) {
   return follower.header().node_start_time == run.block().node_start_time &&
-         follower.header().node_pid == run.block().node_pid && follower.is_of(store);
+         follower.header().node_pid == run.block().node_pid && run.block().virtual_ns == 0;
 }
 
 }  // namespace
@@ -77,12 +77,16 @@ void TapeHistory::read_track(tape::Follower& follower, std::size_t track, const 
 std::optional<TapeHistory> TapeHistory::read(const std::string& node, const vars::Store& store, const Wanted& wanted) {
   auto follower = tape::Follower::open(node, true);
   const auto run = RunView::open(node);
-  if (!follower || !run || run->block().virtual_ns != 0 || !belong_together(*follower, store, *run)) {
+  if (!follower || !run || !is_real(*follower, *run)) {
     return std::nullopt;
   }
   const bool alive = run->node_alive();
   const std::int64_t now = run->now_ns();
   TapeHistory history(wanted);
+  if (!follower->is_of(store)) {
+    history.settled_ns_ = alive ? history.wall_ns(run->block().epoch_ns) : std::numeric_limits<std::int64_t>::max();
+    return history;
+  }
   std::map<std::size_t, std::vector<std::uint32_t>> by_track;
   for (std::uint32_t item = 0; item < wanted.items.size(); ++item) {
     const std::uint32_t variable = wanted.items[item].variable;
@@ -109,6 +113,24 @@ std::optional<TapeHistory> TapeHistory::read(const std::string& node, const vars
                      [](const HistoryValue& a, const HistoryValue& b) { return a.time_ns < b.time_ns; });
   }
   return history;
+}
+
+std::vector<bool> TapeHistory::held(const std::string& node, const vars::Store& store) {
+  std::vector<bool> held(store.directory().size());
+  const auto follower = tape::Follower::open(node, true);
+  const auto run = RunView::open(node);
+  if (!follower || !run || !is_real(*follower, *run) || !follower->is_of(store)) {
+    return held;
+  }
+  for (std::size_t track = 0; track < follower->tracks(); ++track) {
+    const tape::Follower::Items items = follower->items_of(track);
+    for (const auto some : {items.only_read, items.written}) {
+      for (const std::uint32_t variable : some) {
+        held[variable] = follower->variables()[variable].taped != 0;
+      }
+    }
+  }
+  return held;
 }
 
 void TapeHistory::take(std::size_t item, const TimeSpan& span, HistoryFindings& to) const {

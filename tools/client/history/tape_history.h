@@ -25,9 +25,12 @@ class TapeHistory {
     TimeSpan span;                        // of earlier values, only each item's last one is kept
     std::int64_t real_minus_node_ns = 0;  // CLOCK_REALTIME minus the node's time
   };
-  // Returns nothing if the node has no tape, the tape belongs to other variables than the store, or the node is a
-  // simulation, whose times are not of this world.
+  // Returns nothing if the node has no tape, or is a simulation, whose times are not of this world. Nothing is known of
+  // a tape of other variables than those of the store, and nothing settled since its node began.
   static std::optional<TapeHistory> read(const std::string& node, const vars::Store& store, const Wanted& wanted);
+
+  // Returns by index in the store's directory which variables its node's tape has; all false under the same conditions.
+  static std::vector<bool> held(const std::string& node, const vars::Store& store);
 
   // When the item is known; empty if it is on no track.
   [[nodiscard]] const TimeSpan& span_of(std::size_t item) const noexcept { return items_[item].span; }

@@ -110,9 +110,18 @@ class HistorySources {
     return found;
   }
 
-  // The last value of an item before a time that the tape knows, however long ago it was.
+  // The last value of an item before a time up to which the tape knows it, however long ago it was.
   [[nodiscard]] std::optional<HistoryValue> taped_before(std::uint32_t item, std::int64_t time_ns) const {
-    return tape_ && tape_->span_of(item).has(time_ns) ? tape_->last_before(item, time_ns) : std::nullopt;
+    return tape_ && knows(tape_->span_of(item), {time_ns, time_ns}) ? tape_->last_before(item, time_ns) : std::nullopt;
+  }
+  // Returns true if the tape knows all items during this time and, with `before`, their last values before it.
+  [[nodiscard]] bool tape_suffices(const TimeSpan& span, bool before) const {
+    for (std::uint32_t item = 0; item < items_.size(); ++item) {
+      if (!tape_ || !knows(tape_->span_of(item), span) || (before && !tape_->last_before(item, span.begin_ns))) {
+        return false;
+      }
+    }
+    return true;
   }
   // The time up to which all is known that will ever be known.
   [[nodiscard]] std::int64_t settled_ns() const {
@@ -128,6 +137,9 @@ class HistorySources {
     std::vector<bool> has;  // by item
   };
 
+  static bool knows(const TimeSpan& known, const TimeSpan& span) noexcept {
+    return known.begin_ns <= span.begin_ns && span.end_ns <= known.end_ns;
+  }
   void read_file(const File& file, std::vector<bool> wanted, const TimeSpan& span, RecordedRequest limits,
                  HistoryFindings& found) const {
     limits.items = &items_;
@@ -179,9 +191,10 @@ std::int64_t ValueHistory::real_minus_node_of(const std::string& node, const var
 HistoryPage ValueHistory::read(const std::string& node, const vars::Store& store, const HistoryRequest& request) {
   HistoryPosition start;
   start.real_minus_node_ns = real_minus_node_of(node, store);
-  start.at_ns = std::max<std::int64_t>(request.span.begin_ns - kHistoryRunUpNs, 0);
+  const bool from_now = request.span.begin_ns == kHistoryFromNow && !request.position;
+  std::int64_t from = from_now ? rt::wall_ns() : request.span.begin_ns;
+  start.at_ns = std::max<std::int64_t>(from - kHistoryRunUpNs, 0);
   start.seen.resize(request.items.size());
-  std::int64_t from = request.span.begin_ns;
   if (request.position) {
     const std::int64_t measured = start.real_minus_node_ns;
     start = *request.position;
@@ -190,16 +203,23 @@ HistoryPage ValueHistory::read(const std::string& node, const vars::Store& store
   }
   TimeSpan span{start.at_ns, std::max(request.span.end_ns, from)};
   HistorySources sources(node, store, request, span, start.real_minus_node_ns);
+  from = from_now ? std::clamp(sources.settled_ns(), start.at_ns, from) : from;
   span.end_ns = std::max(std::min(span.end_ns, sources.settled_ns()), from);
-  const std::vector<RecordedNode> files = catalog_.of(node, folder_);
-  sources.add(files, span);
+  std::vector<RecordedNode> files;
+  if (!sources.tape_suffices({from, span.end_ns}, !request.position)) {
+    files = catalog_.of(node, folder_);
+    sources.add(files, span);
+  }
 
   PageBuilder page(std::move(start), from, {request.most, kMostHistoryBytes});
   const RecordedRequest limits{nullptr, {}, {}, 0, request.most, kMostHistoryMessages, from};
   const std::vector<std::int64_t> borders = sources.borders(span, from);
-  for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
+  for (std::size_t i = 0; i < borders.size(); ++i) {
     if (borders[i] == from && !request.position) {
       add_taped_before(sources, request.items.size(), from, page);
+    }
+    if (i + 1 == borders.size()) {
+      break;
     }
     HistoryFindings found = sources.read({borders[i], borders[i + 1]}, limits);
     cut_at_completion(found);
@@ -208,7 +228,7 @@ HistoryPage ValueHistory::read(const std::string& node, const vars::Store& store
       return page.finish(true);
     }
   }
-  return page.finish(false);
+  return page.finish(request.follow);
 }
 
 }  // namespace indurop::tools

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The values of a node's variables over time, from its tape and from recordings of it, in pages: however long the time,
 // a page takes a bounded number of values and a bounded part of the recordings, except that a file without a summary,
-// because its recorder still writes, is read whole. Only reads: the node is not affected. Not real-time safe; one
-// thread at a time.
+// because its recorder still writes, is read whole. What the tape has is not looked for in recordings. Only reads: the
+// node is not affected. Not real-time safe; one thread at a time.
 
 #pragma once
 
@@ -27,12 +27,14 @@ inline constexpr std::size_t kMostHistoryValues = 10'000;
 inline constexpr std::size_t kMostHistoryBytes = 1'000'000;      // of a page's values
 inline constexpr std::size_t kMostHistoryMessages = 300'000;     // of recordings, for a page
 inline constexpr std::int64_t kHistoryRunUpNs = 10'000'000'000;  // how far before the history recordings are read
+inline constexpr std::int64_t kHistoryFromNow = INT64_MAX;  // begin of a history: the time up to which all is known
 
 struct HistoryRequest {
   std::vector<operate::Item> items;  // of the store; at most kMostHistoryItems
   TimeSpan span;
   std::size_t most = 1000;                  // values of a page, at most kMostHistoryValues
   std::optional<HistoryPosition> position;  // where the page before it ended
+  bool follow = false;                      // there is always a next page, with what is not known yet
 };
 
 class ValueHistory {

@@ -65,15 +65,16 @@ Result<std::vector<tools::Item>, Reply> requested_items(const Call& call, const 
 }
 
 Result<tools::HistoryRequest, Reply> requested_history(const Call& call, std::vector<tools::Item> items) {
-  const auto from = query_number(call, "from_ns", 0, 0, INT64_MAX);
+  const bool follow = query_value(*call.request, "follow") == "true";
+  const auto from = query_number(call, "from_ns", tools::kHistoryFromNow, 0, INT64_MAX);
   const auto to = query_number(call, "to_ns", INT64_MAX, 0, INT64_MAX);
   const auto most = query_number(call, "most", 1000, 1, tools::kMostHistoryValues);
-  if (!query_value(*call.request, "from_ns") || !from || !to || !most) {
+  if ((!follow && !query_value(*call.request, "from_ns")) || !from || !to || !most) {
     return refusal(status::kBadRequest, fmt::format("from_ns and to_ns are times in ns since 1970, most is 1 to {}",
                                                     tools::kMostHistoryValues));
   }
   tools::HistoryRequest request{
-      std::move(items), {static_cast<std::int64_t>(*from), static_cast<std::int64_t>(*to)}, *most, {}};
+      std::move(items), {static_cast<std::int64_t>(*from), static_cast<std::int64_t>(*to)}, *most, {}, follow};
   if (const auto next = query_value(*call.request, "next")) {
     request.position = tools::history_position(*next, request.items.size());
     if (!request.position) {
@@ -128,6 +129,10 @@ Reply value_history(Api& api, const Call& call) {
   const std::string form = query_value(*call.request, "values").value_or("json");
   if (form != "json" && form != "bytes") {
     return refusal(status::kBadRequest, "values is json or bytes");
+  }
+  const std::string follow = query_value(*call.request, "follow").value_or("false");
+  if (follow != "true" && follow != "false") {
+    return refusal(status::kBadRequest, "follow is true or false");
   }
   auto items = requested_items(call, board);
   if (!items) {

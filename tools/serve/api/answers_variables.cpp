@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/hexadecimal.h"
+#include "tools/client/history/tape_history.h"
 #include "tools/serve/api/answers.h"
 #include "tools/serve/boards/board.h"
 #include "tools/serve/boards/variable.h"
@@ -83,9 +84,13 @@ Reply variables(Api& api, const Call& call) {
   const auto items = items_named(*board.store(), board.name(), {match.value_or("*")}, problems);
   const tools::KnownUses& uses = api.uses_of(board);
   const auto forces = board.store()->forces();
+  const auto held = board.remote() == nullptr ? tools::TapeHistory::held(board.name(), *board.store())
+                                              : std::vector<bool>(board.store()->directory().size());
   base::Json list = base::Json::array();
   for (const tools::Item& item : items) {
-    list.push_back(variable_json(*board.store(), item, uses, forces, values == "true"));
+    base::Json one = variable_json(*board.store(), item, uses, forces, values == "true");
+    one["taped"] = bool{held[static_cast<std::size_t>(item.entry - board.store()->directory().data())]};
+    list.push_back(std::move(one));
   }
   base::Json body = about(board);
   body["layout"] = board.layout();
