@@ -12,8 +12,9 @@ import { read_token, ServeClient } from "./serve/http";
 import type { ServerStatus } from "./serve/types";
 import { Alarms } from "./server/alarms";
 import { make_call } from "./server/call";
+import { Every } from "./server/every";
 import { History } from "./server/history";
-import { watch_items } from "./server/items";
+import { Items } from "./server/items";
 import { make_server, set_permissions, warn_about } from "./server/server";
 import { Users } from "./server/users";
 import { make_write } from "./server/write";
@@ -56,7 +57,11 @@ async function run(options: Options): Promise<void> {
     await server.shutdown(0);
     return;
   }
-  watch_items(server, (node) => by_node.get(node) ?? boards.robots.find(node) ?? boards.programs.find(node), boards.follow, options.rate_hz);
+  const every = new Every(client, (board) => boards.trees.get(board)?.layout, types.construct);
+  new Items({
+    part: (node) => by_node.get(node),
+    any: (node) => by_node.get(node) ?? boards.robots.find(node) ?? boards.programs.find(node),
+  }, boards.follow, every, options.rate_hz).begin(server);
   users.begin(server);
   alarms.begin();
   await server.start();
@@ -67,6 +72,7 @@ async function run(options: Options): Promise<void> {
     if (ending) return;
     ending = true;
     alarms.stop();
+    every.stop();
     boards.stop();
     await users.stop();
     await server.shutdown(0);

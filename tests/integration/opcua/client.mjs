@@ -15,6 +15,7 @@ let client, session, subscription;
 const items = new Map();
 const changes = {};  // newest values by node id
 const events = [];
+const taken = new Map();  // everything that items with a queue have reported, by node id
 
 const plain = (value) => {
   if (value === null || value === undefined) return null;
@@ -35,6 +36,10 @@ const shown = (value) => ({
   code: value.statusCode.name, value: plain(value.value?.value), type: DataType[value.value?.dataType], dims: plain(value.value?.dimensions),
   source: value.sourceTimestamp?.getTime() ?? null, server: value.serverTimestamp?.getTime() ?? null,
 });
+
+const ns_of = (value) => `${BigInt(value.sourceTimestamp?.getTime() ?? 0) * 1_000_000n + BigInt(Math.floor((value.sourcePicoseconds ?? 0) / 1000))}`;
+const parameters_of = ({ interval, queue, oldest }) => ({ samplingInterval: interval ?? 0, queueSize: queue, discardOldest: oldest ?? true });
+const revised = (item) => ({ code: item.statusCode?.name ?? "Good", interval: item.monitoringParameters.samplingInterval, queue: item.monitoringParameters.queueSize });
 
 const actions = {
   async endpoints({ url }) {
@@ -108,6 +113,34 @@ const actions = {
       answers.push(item.statusCode?.name ?? "Good");
     }
     return answers;
+  },
+  // Items with a queue, in a subscription of their own; what they report can be taken.
+  async every({ nodes, publishing, ...words }) {
+    const own = await session.createSubscription2({
+      requestedPublishingInterval: publishing ?? 100, requestedLifetimeCount: 6000, requestedMaxKeepAliveCount: 100, maxNotificationsPerPublish: 10_000, publishingEnabled: true, priority: 1,
+    });
+    const answers = [];
+    for (const nodeId of nodes) {
+      const item = await own.monitor({ nodeId, attributeId: AttributeIds.Value }, parameters_of(words), TimestampsToReturn.Both);
+      taken.set(nodeId, taken.get(nodeId) ?? []);
+      item.on("changed", (value) => {
+        const { statusCode: code } = value;
+        taken.get(nodeId).push([code.name.replace(/WithOverflowBit|#.*/, ""), plain(value.value?.value), ns_of(value), code.hasOverflowBit]);
+      });
+      items.set(nodeId, item);
+      answers.push(revised(item));
+    }
+    return answers;
+  },
+  async modify({ node, ...words }) {
+    const answer = await items.get(node).modify(parameters_of(words), TimestampsToReturn.Both);
+    return { code: answer.statusCode.name, interval: answer.revisedSamplingInterval, queue: answer.revisedQueueSize };
+  },
+  async mode({ node, mode }) {
+    await items.get(node).setMonitoringMode(ua.MonitoringMode[mode]);
+  },
+  async take({ node }) {
+    return taken.get(node).splice(0);
   },
   async unmonitor({ nodes }) {
     for (const node of nodes) {

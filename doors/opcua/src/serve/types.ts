@@ -40,6 +40,7 @@ export interface VariableDescription {
   description: string;
   writers?: string[] | null;  // modules; null: not known
   readers?: string[] | null;
+  taped?: boolean;  // its values of all runs can be followed; absent in a server of an earlier release
 }
 
 export interface VariableList {
@@ -127,10 +128,17 @@ export interface PastValue {
   bytes: string;  // hexadecimal
 }
 
+export interface PastVariable {
+  before: PastValue | null;
+  values: PastValue[];
+  gaps: { from_ns: string; to_ns: string }[];
+}
+
 export interface HistoryPage {
   layout: string;
+  end_ns: string;
   next: string | null;
-  variables: { before: PastValue | null; values: PastValue[]; gaps: { from_ns: string; to_ns: string }[] }[];
+  variables: PastVariable[];
 }
 
 export interface FunctionDescription {

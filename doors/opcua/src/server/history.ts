@@ -3,17 +3,18 @@
 // program keeps nothing of it: a continuation point says where the values that were returned have ended.
 
 import {
-  DataValue, extractRange, HistoryData, HistoryReadResult, ReadRawModifiedDetails, StatusCodes, Variant,
-  type HistoryReadDetails, type NumericRange, type StatusCode,
+  extractRange, HistoryData, HistoryReadResult, ReadRawModifiedDetails, StatusCodes, type DataValue, type HistoryReadDetails, type NumericRange,
+  type StatusCode,
 } from "node-opcua";
 
 import { log, message_of } from "../log";
 import { bytes_of } from "../model/part";
-import { variant_at, type Construct } from "../model/values";
+import type { Construct } from "../model/values";
 import { board_path, Refused, status, type ServeClient } from "../serve/http";
 import type { HistoryPage } from "../serve/types";
 import type { HistoryRead } from "../space/internals";
 import type { PartNode } from "../space/variable";
+import { entries_of as entries_of_variable, NS_OF_MS, past_value, PS_OF_NS, value_entry, type Entry } from "./past";
 import { code_of } from "./write";
 
 export const MOST_VALUES = 10_000;  // of a node, in one answer
@@ -23,16 +24,7 @@ const WINDOW_NS = 1_000_000_000n;  // the first time that is read backward; each
 const LONGER = 4n;
 const WINDOWS = 12;
 const BOUND_NS = 10_000_000_000n;  // how far beyond the end a bounding value is looked for
-const NS_OF_MS = 1_000_000n;
-const PS_OF_NS = 1000;
 const DATE_NS = 100n;  // a client cannot say a time more exactly
-
-// A value, or what is known instead of it from a time on.
-interface Entry {
-  time_ns: bigint;
-  bytes: Buffer | null;
-  code: StatusCode;
-}
 
 interface Wanted {
   from_ns: bigint | null;
@@ -96,14 +88,8 @@ function place_of(point: Buffer | null | undefined, node: string): Place | null 
   throw new Impossible(StatusCodes.BadContinuationPointInvalid);
 }
 
-function value_entry(one: { time_ns: string; bytes: string }): Entry {
-  return { time_ns: BigInt(one.time_ns), bytes: Buffer.from(one.bytes, "hex"), code: StatusCodes.Good };
-}
-
 function entries_of(page: HistoryPage): Entry[] {
-  const [variable] = page.variables;
-  const gaps = variable.gaps.map((gap): Entry => ({ time_ns: BigInt(gap.from_ns), bytes: null, code: StatusCodes.BadDataLost }));
-  return [...gaps, ...variable.values.map(value_entry)].sort((a, b) => (a.time_ns < b.time_ns ? -1 : a.time_ns > b.time_ns ? 1 : 0));
+  return entries_of_variable(page.variables[0]);
 }
 
 function no_bound(time_ns: bigint): Entry {
@@ -144,13 +130,7 @@ export class History {
   }
 
   private data_value(one: PartNode, entry: Entry, range: NumericRange): DataValue {
-    const { form } = one.part;
-    const value = new DataValue({
-      value: entry.bytes ? variant_at(entry.bytes, 0, form, this.construct) : new Variant(),
-      statusCode: entry.code,
-      sourceTimestamp: new Date(Number(entry.time_ns / NS_OF_MS)),
-      sourcePicoseconds: Number(entry.time_ns % NS_OF_MS) * PS_OF_NS,
-    });
+    const value = past_value(entry, one.part, this.construct);
     return entry.bytes && range && !range.isEmpty() ? extractRange(value, range) : value;
   }
 

@@ -13,6 +13,7 @@ import {
 import { log } from "../log";
 import { VERSION, type Options } from "../options";
 import { nodeset_file } from "../space/nodesets";
+import { MOST_QUEUED } from "./every";
 import { MOST_VALUES } from "./history";
 import type { Users } from "./users";
 
@@ -60,12 +61,12 @@ function limits(options: Options): object {
       maxSubscriptionsPerSession: 10,
       maxMonitoredItems: options.items,
       maxMonitoredItemsPerSubscription: options.items,
-      maxMonitoredItemsQueueSize: 100,
+      maxMonitoredItemsQueueSize: MOST_QUEUED,
       maxBrowseContinuationPoints: 10,
       maxArrayLength: 1_000_000,
       maxStringLength: 1_000_000,
       maxByteStringLength: MESSAGE_BYTES,
-      minSupportedSampleRate: 1000 / options.rate_hz,
+      minSupportedSampleRate: 0,  // every run
       operationLimits: {
         maxNodesPerRead: NODES_PER_REQUEST, maxNodesPerBrowse: NODES_PER_REQUEST, maxNodesPerWrite: 1000,
         maxMonitoredItemsPerCall: NODES_PER_REQUEST, maxNodesPerMethodCall: 100, maxNodesPerRegisterNodes: NODES_PER_REQUEST,

@@ -13,6 +13,7 @@ import { BoardTree, notes_of, type Space } from "./tree";
 
 const RETRY_MS = 2000;
 const SWEEP_MS = 2000;
+const TAPE_MS = 3000;  // the tape of a node that was seen to start is there
 
 export class Boards {
   readonly trees = new Map<string, BoardTree>();
@@ -23,6 +24,7 @@ export class Boards {
   private readonly updates = new Map<string, Promise<void>>();  // one at a time of each board
   private readonly running = new Set<string>();  // boards with a node
   private readonly noted = new Set<string>();
+  private readonly learning = new Map<string, NodeJS.Timeout>();
   private sweeping: NodeJS.Timeout | undefined;
   space!: Space;
   methods!: Methods;
@@ -41,7 +43,7 @@ export class Boards {
       rejected: (id, message) => this.follow.rejected(id, message),
     });
     this.follow = new Follow(this.stream, rate_hz);
-    this.follow.on_start = (board) => this.robots.started(board);
+    this.follow.on_start = (board) => this.started(board);
   }
 
   // Boards that are there now. Throws Refused.
@@ -55,6 +57,7 @@ export class Boards {
 
   stop(): void {
     clearInterval(this.sweeping);
+    for (const timer of this.learning.values()) clearTimeout(timer);
     this.follow.stop();
     this.robots.stop();
     this.programs.stop();
@@ -74,9 +77,30 @@ export class Boards {
   private heard(boards: StreamBoard[]): void {
     for (const { board, alive, layout } of boards) {
       void this.update(board, layout);
-      if (alive && !this.running.has(board) && this.trees.get(board)?.layout === layout) this.robots.started(board);
+      if (alive && !this.running.has(board) && this.trees.get(board)?.layout === layout) this.started(board);
       if (alive) this.running.add(board);
       else this.running.delete(board);
+    }
+  }
+
+  // The node of the board has started, with the same variables.
+  private started(board: string): void {
+    this.robots.started(board);
+    this.learn_tape_soon(board);
+  }
+
+  private learn_tape_soon(board: string): void {
+    clearTimeout(this.learning.get(board));
+    this.learning.set(board, setTimeout(() => void this.learn_tape(board), TAPE_MS));
+  }
+
+  private async learn_tape(board: string): Promise<void> {
+    try {
+      const list = await this.client.get<VariableList>(board_path(board, "/variables?values=false"));
+      const tree = this.trees.get(board);
+      if (tree?.layout === list.layout) tree.set_taped(list.variables);
+    } catch (error) {
+      log(`${board}: whether it has a tape is not known: ${message_of(error)}`);
     }
   }
 
@@ -111,6 +135,7 @@ export class Boards {
       await this.programs.update(tree, here !== false);
       this.note([...notes_of(list.variables), ...unshown, ...this.space.types.notes].map((note) => `${board}: ${note}`));
       this.follow.renew_board(board);
+      if (here !== false) this.learn_tape_soon(board);
       await this.on_update(tree);
     } catch (error) {
       log(`${board}: its variables cannot be read: ${message_of(error)}`);

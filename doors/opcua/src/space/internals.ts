@@ -32,6 +32,8 @@ export interface InnerItem {
   // The item reports changes, at most once in samplingInterval, and has no timer that samples.
   _exceptionBased: boolean;
   samplingInterval: number;
+  // Marks a notification: others that would follow or precede it were discarded.
+  _setOverflowBit(notification: { value?: DataValue }): void;
 }
 
 // Replaces a node's value and passes it to the monitored items.

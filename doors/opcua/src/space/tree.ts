@@ -82,6 +82,17 @@ export class BoardTree {
       for (const part of parts.values()) this.place(part);
     });
     this.layout = layout;
+    this.set_taped(list);
+  }
+
+  // Whether the tape of the node has them may differ after each of its starts.
+  set_taped(list: VariableDescription[]): void {
+    for (const { name, taped } of list) {
+      const variable = this.variables.get(name);
+      if (!variable) continue;
+      variable.taped = taped ?? false;
+      for (const { node } of variable.parts.values()) node.minimumSamplingInterval = variable.taped ? 0 : 1000 / this.space.rate_hz;
+    }
   }
 
   // Nodes of variables that are gone stay, without a place in the tree, while a client monitors them: they come back if a

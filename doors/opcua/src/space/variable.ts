@@ -59,6 +59,7 @@ export class Variable {
   readonly monitored = new Set<Watched>();
   mark: Mark | undefined;
   gone = false;  // its board has no such variable any more
+  taped = false;  // the tape of its node has its values of all runs
   wanted_until_ms = 0;
   waiting: (() => void)[] = [];  // reads that wait for the first frame
   private bytes: Buffer | null = null;  // of the frame
@@ -69,6 +70,8 @@ export class Variable {
   constructor(readonly board: string, public part: Part, private readonly construct: Construct) {}
 
   get known(): boolean { return this.bytes !== null || this.gone; }
+
+  get is_bad(): boolean { return this.bytes === null || this.code.isBad(); }
 
   // A frame has arrived; `offset` is the variable's place in it.
   receive(source: Source, offset: number, quality: number): void {
