@@ -21,6 +21,12 @@ namespace fs = std::filesystem;
 using irp::testing::Plant;
 using ::testing::HasSubstr;
 
+#if defined(__SANITIZE_THREAD__)
+constexpr bool kFollowsCrashes = false;  // ThreadSanitizer does not follow a jump out of a crashed module
+#else
+constexpr bool kFollowsCrashes = true;
+#endif
+
 // Values of the parameter "fault" of lag.c.
 enum { kFail = 1, kRefuse, kCrash, kDie, kEnd, kNan, kChatter, kHang, kEarly, kCrashAtStart, kFailAtStart };
 
@@ -76,6 +82,9 @@ TEST_P(FmuFault, A_step_that_fails_says_what_when_and_why) {
 }
 
 TEST_P(FmuFault, A_crash_is_that_of_a_module) {
+  if (!kFollowsCrashes) {
+    GTEST_SKIP();
+  }
   EXPECT_THAT(fault_of(kCrash), HasSubstr("SIGSEGV"));
 }
 
@@ -101,7 +110,9 @@ std::string start_problem(const Model& model) {
 
 TEST_P(FmuFault, A_start_that_fails_prevents_the_run) {
   EXPECT_THAT(start_problem(Model(device(kFailAtStart))), HasSubstr("no equilibrium was found"));
-  EXPECT_THAT(start_problem(Model(device(kCrashAtStart))), HasSubstr("SIGSEGV"));
+  if (kFollowsCrashes) {
+    EXPECT_THAT(start_problem(Model(device(kCrashAtStart))), HasSubstr("SIGSEGV"));
+  }
 }
 
 TEST_P(FmuFault, Nothing_is_left_in_the_folder_for_temporary_files) {
@@ -112,7 +123,7 @@ TEST_P(FmuFault, Nothing_is_left_in_the_folder_for_temporary_files) {
     ASSERT_EQ(model.unpacked().size(), 1U);
   }
   EXPECT_TRUE(model.unpacked().empty());
-  const Model crashing(device(kCrash));
+  const Model crashing(device(kFollowsCrashes ? kCrash : kFail));
   {
     Plant plant(crashing.file());
     plant.step(5);

@@ -50,11 +50,11 @@ void print_variables(Context& context, const io::fmu::Description& description) 
   print_table(context, table, JsonValue::object(), "variables");
 }
 
-std::string comment_text(std::string text) {
+std::string comment_line(std::string text) {
   for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--")) {
     text.replace(at, 2, "- -");  // "--" ends a comment
   }
-  return text;
+  return fmt::format("    <!-- {}-->\n", text);
 }
 
 // The parameters with their start values, for a user to change.
@@ -65,9 +65,9 @@ std::string parameters_text(const io::fmu::Description& description) {
   for (const Variable& variable : description.variables) {
     if (variable.causality == Causality::Parameter && !variable.start.empty() && !start_text(variable).empty() &&
         shown++ < kMaxShown) {
-      text +=
-          fmt::format("    <!-- <set at=\"{}\" value=\"{}\"/> {} -->\n", comment_text(base::xml_text(variable.name)),
-                      comment_text(base::xml_text(start_text(variable))), comment_text(base::xml_text(variable.unit)));
+      const std::string unit = variable.unit.empty() ? "" : base::xml_text(variable.unit) + " ";
+      text += comment_line(fmt::format("<set at=\"{}\" value=\"{}\"/> {}", base::xml_text(variable.name),
+                                       base::xml_text(start_text(variable)), unit));
     }
   }
   return text;
