@@ -28,6 +28,7 @@ bool is_done(fmi2Status status) noexcept {
 }
 
 // The message is a format of printf, as the standard wants it.
+// NOLINTNEXTLINE(cert-dcl50-cpp)
 void note2(fmi2ComponentEnvironment environment, fmi2String /*instance*/, fmi2Status status, fmi2String category,
            fmi2String message, ...) {
   constexpr std::size_t kMaxText = 2048;

@@ -142,13 +142,14 @@ bool FmuDriver::open() {
       [name = device_.name](const std::string& text) { irp::printf("%s: %s\n", name, text); }, device_.fmu.log);
   is_inside_ = true;
   auto made = FmuInstance::make(description_, {device_.name, folder_->path()}, *log_);
-  bool done = made.ok();
-  if (done) {
-    instance_ = std::move(made).value();
-    done = set_starts() && instance_->enter_initialization();
+  if (!made) {
+    is_inside_ = false;
+    return fail(made.error());
   }
+  instance_ = std::move(made).value();
+  const bool done = set_starts() && instance_->enter_initialization();
   is_inside_ = false;
-  return done || fail(made.ok() ? instance_->problem() : made.error());
+  return done || fail(instance_->problem());
 }
 
 bool FmuDriver::set_starts() {

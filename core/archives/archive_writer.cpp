@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The writer of archives: the same bytes for the same content, so members have no times and owners.
 #include "core/archives/archive.h"
 
 #include <archive.h>

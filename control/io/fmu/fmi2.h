@@ -4,6 +4,8 @@
 
 #pragma once
 
+/* NOLINTBEGIN: C, with the names of the standard */
+
 #include <stddef.h>
 
 #pragma GCC visibility push(default)
@@ -105,3 +107,4 @@ fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real nominals[
 }
 #endif
 #pragma GCC visibility pop
+/* NOLINTEND */

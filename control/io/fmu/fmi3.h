@@ -4,6 +4,8 @@
 
 #pragma once
 
+/* NOLINTBEGIN: C, with the names of the standard */
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -194,3 +196,4 @@ fmi3Status fmi3ActivateModelPartition(fmi3Instance c, fmi3ValueReference clock, 
 }
 #endif
 #pragma GCC visibility pop
+/* NOLINTEND */
