@@ -59,13 +59,12 @@ export class Every {
     if (one) this.tapes.get(one.variable.board)!.begin(item, one);
   }
 
-  // The item reports samples from now on, or has ended. Returns false if it has reported no other values so far.
+  // The item reports samples from now on, or has ended. Returns true if it needs one at once: it has no value.
   remove(item: MonitoredItem): boolean {
     const one = this.items.get(item);
     if (!one) return false;
     this.items.delete(item);
-    this.tapes.get(one.variable.board)!.remove(item, one);
-    return true;
+    return !this.tapes.get(one.variable.board)!.remove(item, one);
   }
 
   stop(): void {

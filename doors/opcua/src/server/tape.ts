@@ -21,6 +21,7 @@ const PERIOD_MS = { least: 50, longest: 500 };  // the tape holds two seconds
 const RETRY_MS = 500;
 const BLANK = 6;  // so many pages without any value while the board has some: there is no tape
 const STUCK_MS = 10_000;
+const US_OF_MS = 1000;
 
 // Puts a value into the queue of an item.
 export type Record = (item: MonitoredItem, value: DataValue) => void;
@@ -61,10 +62,12 @@ export class Tape {
     this.timer ??= setTimeout(() => void this.turn(), 0);
   }
 
-  remove(item: MonitoredItem, one: PartNode): void {
+  // Returns true if the item has a value: samples can be older than it.
+  remove(item: MonitoredItem, one: PartNode): boolean {
     const track = this.tracks.get(one.part.path);
     track?.items.delete(item);
     if (track?.items.size === 0) this.tracks.delete(one.part.path);
+    return Boolean(track?.last?.bytes);
   }
 
   // The item has begun to report: it gets what is known already.
@@ -84,7 +87,7 @@ export class Tape {
   }
 
   private async turn(): Promise<void> {
-    const begin_ms = performance.now();
+    const begin = process.cpuUsage();
     let wait_ms = this.period();
     try {
       if (await this.read()) wait_ms = 0;
@@ -98,8 +101,9 @@ export class Tape {
       this.at_ns = this.next = null;
       return;
     }
-    // Never more than half of the time, whatever clients want.
-    this.timer = setTimeout(() => void this.turn(), Math.max(wait_ms, performance.now() - begin_ms));
+    // Never more than half of a core, whatever clients want.
+    const { user, system } = process.cpuUsage(begin);
+    this.timer = setTimeout(() => void this.turn(), Math.max(wait_ms, (user + system) / US_OF_MS));
   }
 
   // The pace of the fastest subscription.
