@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <indurop/testing.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -133,7 +134,8 @@ TEST_P(FmuFault, Nothing_is_left_in_the_folder_for_temporary_files) {
 
 TEST_P(FmuFault, The_next_FMU_removes_what_a_killed_node_has_left) {
   const Model model(device(0));
-  test::Program node({INDUROP, "run", model.file().string(), "--sim", "--speed", "1", "--node", "fmu-killed"});
+  const std::string name = fmt::format("fmu-killed-{}", ::getpid());  // this test runs for both versions at once
+  test::Program node({INDUROP, "run", model.file().string(), "--sim", "--speed", "1", "--node", name});
   ASSERT_TRUE(test::wait_until([&model] { return model.unpacked().size() == 1; })) << node.out() << node.err();
   Plant other(model.file());
   ASSERT_EQ(model.unpacked().size(), 2U) << "that of a node that runs stays";
@@ -141,7 +143,7 @@ TEST_P(FmuFault, The_next_FMU_removes_what_a_killed_node_has_left) {
   EXPECT_EQ(model.unpacked().size(), 2U);
   const Plant next(model.file());
   EXPECT_EQ(model.unpacked().size(), 2U);
-  EXPECT_EQ(run({INDUROP, "clean", "--node", "fmu-killed", "-q"}).code, 0);
+  EXPECT_EQ(run({INDUROP, "clean", "--node", name, "-q"}).code, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Fmi, FmuFault, ::testing::Values(2, 3));
