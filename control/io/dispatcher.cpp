@@ -231,14 +231,18 @@ bool Dispatcher::run(std::chrono::nanoseconds elapsed) {
       give(line, line.thread->receive());
     } else {
       take(line, line.outputs);
-      take_texts(line);
+      if (!line.texts.empty()) [[unlikely]] {  // of FMUs only
+        take_texts(line);
+      }
       const auto outcome = line.in_tick->exchange(*line.driver, line.outputs, DeviceImage::Outputs::Fresh, elapsed);
-      if (outcome == Driver::Outcome::Failed) {
+      if (outcome == Driver::Outcome::Failed) [[unlikely]] {
         problem_ = line.driver->problem();
         return false;
       }
       give(line, line.in_tick->current());
-      give_texts(line);
+      if (!line.texts.empty()) [[unlikely]] {
+        give_texts(line);
+      }
     }
   }
   variables_.commit();
