@@ -206,7 +206,8 @@ HistoryPage ValueHistory::read(const std::string& node, const vars::Store& store
   from = from_now ? std::clamp(sources.settled_ns(), start.at_ns, from) : from;
   span.end_ns = std::max(std::min(span.end_ns, sources.settled_ns()), from);
   std::vector<RecordedNode> files;
-  if (!sources.tape_suffices({from, span.end_ns}, !request.position)) {
+  // The tape knows only since when it has a value that has not changed for long; a recording may know when it changed.
+  if (!request.follow || !sources.tape_suffices({from, span.end_ns}, !request.position)) {
     files = catalog_.of(node, folder_);
     sources.add(files, span);
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The values of a node's variables over time, from its tape and from recordings of it, in pages: however long the time,
 // a page takes a bounded number of values and a bounded part of the recordings, except that a file without a summary,
-// because its recorder still writes, is read whole. What the tape has is not looked for in recordings. Only reads: the
-// node is not affected. Not real-time safe; one thread at a time.
+// because its recorder still writes, is read whole. A page that follows does not look in recordings for what the tape
+// has. Only reads: the node is not affected. Not real-time safe; one thread at a time.
 
 #pragma once
 
