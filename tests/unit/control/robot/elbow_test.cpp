@@ -73,7 +73,7 @@ class Elbow : public testing::TestWithParam<const char*> {
   }
   // A line that takes more work than this is near a singular position: it is not about the elbow.
   Fault plan(const MoveCommand& command, const Joints& from) {
-    constexpr int kMostWork = 20000;
+    constexpr int kMostWork = 35000;
     Fault fault = planner->begin(command, from);
     while (fault.ok() && !planner->done() && planner->work() < kMostWork) {
       fault = planner->check(64);
