@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <indurop/testing.h>
-#include <signal.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 
 #include "core/base/exit_code.h"
@@ -23,16 +23,16 @@ using irp::testing::Plant;
 using ::testing::HasSubstr;
 
 #if defined(__SANITIZE_THREAD__)
-constexpr bool kFollowsCrashes = false;  // ThreadSanitizer does not follow a jump out of a crashed module
+constexpr bool kFollowsCrashes = false;
 #else
 constexpr bool kFollowsCrashes = true;
 #endif
 
 // Values of the parameter "fault" of lag.c.
-enum { kFail = 1, kRefuse, kCrash, kDie, kEnd, kNan, kChatter, kHang, kEarly, kCrashAtStart, kFailAtStart };
+enum { Fail = 1, Refuse, Crash, Die, End, Nan, Chatter, Hang, Early, CrashAtStart, FailAtStart };
 
-test::Outcome run(std::vector<std::string> command) {
-  test::Program program(std::move(command));
+test::Outcome run(const std::vector<std::string>& command) {
+  test::Program program(command);
   return program.finish();
 }
 
@@ -75,26 +75,26 @@ bool prints(Plant& plant, const std::string& text) {
 
 TEST_P(FmuFault, A_step_that_fails_says_what_when_and_why) {
   const std::string word = GetParam() == 2 ? "fmi2" : "fmi3";
-  EXPECT_THAT(fault_of(kFail),
+  EXPECT_THAT(fault_of(Fail),
               HasSubstr(fmt::format("at 0.02 s: {0}DoStep failed ({0}Error): the solver does not converge", word)));
-  EXPECT_THAT(fault_of(kRefuse), HasSubstr(fmt::format("at 0.02 s: {0}DoStep failed ({0}Discard)", word)));
-  EXPECT_THAT(fault_of(kDie), HasSubstr(fmt::format("{0}DoStep failed ({0}Fatal): out of licences", word)));
-  EXPECT_THAT(fault_of(kEnd), HasSubstr("at 0.02 s: the FMU has ended the simulation"));
+  EXPECT_THAT(fault_of(Refuse), HasSubstr(fmt::format("at 0.02 s: {0}DoStep failed ({0}Discard)", word)));
+  EXPECT_THAT(fault_of(Die), HasSubstr(fmt::format("{0}DoStep failed ({0}Fatal): out of licences", word)));
+  EXPECT_THAT(fault_of(End), HasSubstr("at 0.02 s: the FMU has ended the simulation"));
 }
 
 TEST_P(FmuFault, A_crash_is_that_of_a_module) {
   if (!kFollowsCrashes) {
-    GTEST_SKIP();
+    GTEST_SKIP() << "ThreadSanitizer does not follow a jump out of a crashed module";
   }
-  EXPECT_THAT(fault_of(kCrash), HasSubstr("SIGSEGV"));
+  EXPECT_THAT(fault_of(Crash), HasSubstr("SIGSEGV"));
 }
 
 TEST_P(FmuFault, Messages_are_printed_and_cannot_change_a_terminal) {
-  const Model model(device(kChatter));
+  const Model model(device(Chatter));
   Plant plant(model.file());
   EXPECT_TRUE(prints(plant, "lag: near a singularity?[2J"));
   EXPECT_THAT(plant.printed(), ::testing::Not(HasSubstr("of it")));
-  const Model all(device(kChatter, "log=\"on\""));
+  const Model all(device(Chatter, "log=\"on\""));
   Plant loud(all.file());
   EXPECT_TRUE(prints(loud, "lag: events: 100%s of it"));
 }
@@ -110,9 +110,9 @@ std::string start_problem(const Model& model) {
 }
 
 TEST_P(FmuFault, A_start_that_fails_prevents_the_run) {
-  EXPECT_THAT(start_problem(Model(device(kFailAtStart))), HasSubstr("no equilibrium was found"));
+  EXPECT_THAT(start_problem(Model(device(FailAtStart))), HasSubstr("no equilibrium was found"));
   if (kFollowsCrashes) {
-    EXPECT_THAT(start_problem(Model(device(kCrashAtStart))), HasSubstr("SIGSEGV"));
+    EXPECT_THAT(start_problem(Model(device(CrashAtStart))), HasSubstr("SIGSEGV"));
   }
 }
 
@@ -124,7 +124,7 @@ TEST_P(FmuFault, Nothing_is_left_in_the_folder_for_temporary_files) {
     ASSERT_EQ(model.unpacked().size(), 1U);
   }
   EXPECT_TRUE(model.unpacked().empty());
-  const Model crashing(device(kFollowsCrashes ? kCrash : kFail));
+  const Model crashing(device(kFollowsCrashes ? Crash : Fail));
   {
     Plant plant(crashing.file());
     plant.step(5);
