@@ -95,11 +95,6 @@ class Fmi2Instance final : public FmuInstance {
            judge(enter_initialization_(instance_), "fmi2EnterInitializationMode");
   }
 
-  bool exit_initialization() override {
-    is_initialized_ = judge(exit_initialization_(instance_), "fmi2ExitInitializationMode");
-    return is_initialized_;
-  }
-
   bool step(double at, double size) override {
     const fmi2Status status = step_(instance_, at, size, fmi2True);
     if (status == fmi2Discard) {
@@ -111,18 +106,12 @@ class Fmi2Instance final : public FmuInstance {
     return judge(status, "fmi2DoStep");
   }
 
-  void end() override {
-    if (is_fatal_) {
-      return;  // no function may be called any more
-    }
-    if (is_initialized_ && !has_failed_) {
-      (void)terminate_(instance_);
-    }
-    free_(instance_);
-    unload();
-  }
-
  private:
+  bool finish_initialization() override { return judge(exit_initialization_(instance_), "fmi2ExitInitializationMode"); }
+
+  void terminate() override { (void)terminate_(instance_); }
+  void free() override { free_(instance_); }
+
   std::string start(const FmuIdentity& identity) override {
     find_functions();
     if (!missing().empty()) {
@@ -159,9 +148,7 @@ class Fmi2Instance final : public FmuInstance {
     if (is_done(status)) {
       return true;
     }
-    has_failed_ = true;
-    is_fatal_ = is_fatal_ || status == fmi2Fatal;
-    return fail(fmt::format("{} failed ({})", call, name_of(status)));
+    return fail_call(call, name_of(status), status == fmi2Fatal);
   }
 
   void find_functions() {
@@ -188,9 +175,6 @@ class Fmi2Instance final : public FmuInstance {
 
   fmi2Component instance_ = nullptr;
   fmi2CallbackFunctions callbacks_{};
-  bool is_initialized_ = false;
-  bool has_failed_ = false;
-  bool is_fatal_ = false;
   decltype(&fmi2GetTypesPlatform) types_platform_ = nullptr;
   decltype(&fmi2GetVersion) version_ = nullptr;
   decltype(&fmi2SetDebugLogging) set_logging_ = nullptr;

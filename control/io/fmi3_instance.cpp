@@ -78,11 +78,6 @@ class Fmi3Instance final : public FmuInstance {
     return judge(enter_initialization_(instance_, false, 0, 0, false, 0), "fmi3EnterInitializationMode");
   }
 
-  bool exit_initialization() override {
-    is_initialized_ = judge(exit_initialization_(instance_), "fmi3ExitInitializationMode");
-    return is_initialized_;
-  }
-
   bool step(double at, double size) override {
     bool needs_event = false;
     bool has_ended = false;
@@ -97,18 +92,12 @@ class Fmi3Instance final : public FmuInstance {
     return !is_early || fail(fmt::format("fmi3DoStep returned at {} s, although it must not return early", last));
   }
 
-  void end() override {
-    if (is_fatal_) {
-      return;  // no function may be called any more
-    }
-    if (is_initialized_ && !has_failed_) {
-      (void)terminate_(instance_);
-    }
-    free_(instance_);
-    unload();
-  }
-
  private:
+  bool finish_initialization() override { return judge(exit_initialization_(instance_), "fmi3ExitInitializationMode"); }
+
+  void terminate() override { (void)terminate_(instance_); }
+  void free() override { free_(instance_); }
+
   std::string start(const FmuIdentity& identity) override {
     find_functions();
     if (!missing().empty()) {
@@ -134,9 +123,7 @@ class Fmi3Instance final : public FmuInstance {
     if (status == fmi3OK || status == fmi3Warning) {
       return true;
     }
-    has_failed_ = true;
-    is_fatal_ = is_fatal_ || status == fmi3Fatal;
-    return fail(fmt::format("{} failed ({})", call, name_of(status)));
+    return fail_call(call, name_of(status), status == fmi3Fatal);
   }
 
   template <class Use>
@@ -204,9 +191,6 @@ class Fmi3Instance final : public FmuInstance {
   }
 
   fmi3Instance instance_ = nullptr;
-  bool is_initialized_ = false;
-  bool has_failed_ = false;
-  bool is_fatal_ = false;
   decltype(&fmi3GetVersion) version_ = nullptr;
   decltype(&fmi3SetDebugLogging) set_logging_ = nullptr;
   decltype(&fmi3InstantiateCoSimulation) instantiate_ = nullptr;

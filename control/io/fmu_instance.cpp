@@ -81,6 +81,28 @@ std::string FmuInstance::reason() {
   return said.empty() ? "" : ": " + said;
 }
 
+bool FmuInstance::exit_initialization() {
+  is_initialized_ = finish_initialization();
+  return is_initialized_;
+}
+
+void FmuInstance::end() {
+  if (is_fatal_) {
+    return;
+  }
+  if (is_initialized_ && !has_failed_) {
+    terminate();
+  }
+  free();
+  unload();
+}
+
+bool FmuInstance::fail_call(const std::string& call, const char* status, bool is_fatal) {
+  has_failed_ = true;
+  is_fatal_ = is_fatal_ || is_fatal;
+  return fail(fmt::format("{} failed ({})", call, status));
+}
+
 bool FmuInstance::fail(const std::string& what) {
   problem_ = what + reason();
   return false;

@@ -59,12 +59,12 @@ class FmuInstance {
   virtual bool set_text(const fmu::Variable& variable, const std::string& text) = 0;
   virtual bool get_text(const fmu::Variable& variable, std::string& text) = 0;
   virtual bool enter_initialization() = 0;  // at time 0
-  virtual bool exit_initialization() = 0;
+  bool exit_initialization();
   // Advances from `at` by `size`, in seconds.
   virtual bool step(double at, double size) = 0;
   // Ends the instance as the standard wants it, and unloads the library. Without this call both stay in the process: a
   // crash has left them in no usable state.
-  virtual void end() = 0;
+  void end();
 
   [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
 
@@ -72,6 +72,10 @@ class FmuInstance {
   FmuInstance(const fmu::Description& description, FmuLog& log) : description_(description), log_(log) {}
   // Creates the instance. Returns why it cannot; empty: created.
   virtual std::string start(const FmuIdentity& identity) = 0;
+  virtual bool finish_initialization() = 0;
+  // The calls of the standard with which an instance ends.
+  virtual void terminate() = 0;
+  virtual void free() = 0;
   template <class Function>
   void find(Function& function, const char* name) {
     function = reinterpret_cast<Function>(symbol(name));
@@ -80,19 +84,24 @@ class FmuInstance {
   [[nodiscard]] const std::string& missing() const noexcept { return missing_; }
   // Notes which call failed and how, with what the FMU said of it. Returns false.
   bool fail(const std::string& what);
+  // The same for a call with the name of its status. After a fatal one, no function may be called any more.
+  bool fail_call(const std::string& call, const char* status, bool is_fatal);
   // What the FMU said since the last call: ": no such file", or nothing.
   std::string reason();
   // The categories of its messages about errors and warnings; empty: it has none, or all messages are wanted.
   [[nodiscard]] std::vector<const char*> categories() const;
-  void unload() noexcept;
 
   const fmu::Description& description_;  // NOLINT(*-non-private-member-variables-in-classes)
   FmuLog& log_;                          // NOLINT(*-non-private-member-variables-in-classes)
 
  private:
   std::string load(const std::filesystem::path& library);
+  void unload() noexcept;
   void* symbol(const char* name);
 
+  bool is_initialized_ = false;
+  bool has_failed_ = false;
+  bool is_fatal_ = false;
   void* library_ = nullptr;
   std::string missing_;
   std::string problem_;
