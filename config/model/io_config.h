@@ -191,6 +191,7 @@ struct IoOpcua {
   std::string user;    // empty: anonymous
   std::string socket;  // of that program; empty: the one that it has by default
 };
+const char* name_of(IoOpcua::Security security) noexcept;
 
 // A value that an FMU gets before it starts.
 struct IoFmuStart {

@@ -7,12 +7,15 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "config/xml/values.h"
 #include "core/base/text.h"
 
 namespace indurop::config {
 namespace {
+
+constexpr std::array kSecurities{IoOpcua::Security::Encrypt, IoOpcua::Security::Sign, IoOpcua::Security::None};
 
 // OPC 10000-6, 5.3.1.10: an optional namespace, by number or by URI, then a kind and an identifier.
 bool is_node_id(std::string_view text) {
@@ -44,6 +47,18 @@ bool is_server(const std::string& url) {
 
 }  // namespace
 
+const char* name_of(IoOpcua::Security security) noexcept {
+  switch (security) {
+    case IoOpcua::Security::Encrypt:
+      return "encrypt";
+    case IoOpcua::Security::Sign:
+      return "sign";
+    case IoOpcua::Security::None:
+      return "none";
+  }
+  return "";
+}
+
 void read_io_server(Attributes& attributes, IoDevice& device, base::Diagnostics& report) {
   base::SourcePlace place;
   const auto address = attributes.need("address", "address=\"opc.tcp://192.168.1.10:4840\"", &place);
@@ -53,9 +68,11 @@ void read_io_server(Attributes& attributes, IoDevice& device, base::Diagnostics&
                                     "opc.tcp://192.168.1.10:4840",
                                     base::in_quotes(*address)));
   }
-  using Security = IoOpcua::Security;
-  constexpr std::array kSecurities{Security::Encrypt, Security::Sign, Security::None};
-  device.opcua.security = kSecurities.at(attributes.choose("security", {"encrypt", "sign", "none"}).value_or(0));
+  std::vector<std::string> words;
+  for (const IoOpcua::Security security : kSecurities) {
+    words.emplace_back(name_of(security));
+  }
+  device.opcua.security = kSecurities.at(attributes.choose("security", words).value_or(0));
   device.opcua.user = attributes.text("user").value_or("");
   device.opcua.socket = attributes.text("socket").value_or("");
 }

@@ -26,18 +26,6 @@ using Json = nlohmann::json;
 constexpr std::size_t kMaxLine = std::size_t{4} * 1024 * 1024;
 constexpr const char* kProgram = "indurop-opcua --client";
 
-const char* name_of(config::IoOpcua::Security security) {
-  switch (security) {
-    case config::IoOpcua::Security::Encrypt:
-      return "encrypt";
-    case config::IoOpcua::Security::Sign:
-      return "sign";
-    case config::IoOpcua::Security::None:
-      return "none";
-  }
-  return "";
-}
-
 // Text, because JSON of JavaScript has no integers of 64 bits.
 std::string text_of(Number value) {
   constexpr Number kIntegers = 18446744073709551616.0L;  // 2^64
@@ -117,7 +105,7 @@ void OpcuaDriver::close() noexcept {
 std::string OpcuaDriver::description() const {
   return Json{{"device", device_.name},
               {"url", device_.address},
-              {"security", name_of(device_.opcua.security)},
+              {"security", config::name_of(device_.opcua.security)},
               {"user", device_.opcua.user},
               {"timeout_ms", device_.timeout / std::chrono::milliseconds(1)},
               {"outputs", outputs_},
