@@ -6,8 +6,7 @@ import { chmod, mkdir, readFile, stat, unlink } from "node:fs/promises";
 import { connect, createServer, type Socket } from "node:net";
 import { dirname, join } from "node:path";
 
-import { OPCUACertificateManager } from "node-opcua";
-
+import { make_certificate_manager } from "../certificates";
 import { log, message_of } from "../log";
 import type { ClientOptions } from "../options";
 import { device_of, line_of, lines_of, request_of } from "./protocol";
@@ -15,16 +14,8 @@ import { reason_of, Remote, type Trust } from "./remote";
 
 const MOST_DEVICES = 100;
 
-async function make_trust(state: string): Promise<Trust> {
-  const folder = join(state, "client");
-  await mkdir(folder, { recursive: true, mode: 0o700 });
-  const manager = new OPCUACertificateManager({ rootFolder: folder, automaticallyAcceptUnknownCertificate: false });
-  await manager.initialize();
-  return manager;
-}
-
 // Lines `USER PASSWORD`; the password may have spaces.
-export async function read_passwords(file: string): Promise<Map<string, string>> {
+async function read_passwords(file: string): Promise<Map<string, string>> {
   if (!file) return new Map();
   if (((await stat(file)).mode & 0o077) !== 0) throw new Error(`${file}: others can read it; chmod 600 it`);
   const lines = (await readFile(file, "utf8")).split("\n").filter((line) => line.trim() && !line.startsWith("#"));
@@ -72,7 +63,7 @@ async function make_room(path: string): Promise<void> {
 }
 
 export async function run_client(options: ClientOptions): Promise<void> {
-  const trust = await make_trust(options.state);
+  const trust = await make_certificate_manager(join(options.state, "client"), false);
   const passwords = await read_passwords(options.password_file);
   await mkdir(dirname(options.socket), { recursive: true });
   await make_room(options.socket);

@@ -3,6 +3,7 @@
 
 import { DataType, StatusCodes, Variant, VariantArrayType, type DataValue, type StatusCode } from "node-opcua";
 
+import { wide_of } from "../model/values";
 import { Quality } from "./protocol";
 
 const INTEGERS = new Map<DataType, [bigint, bigint]>([
@@ -24,18 +25,12 @@ export function quality_of(status: StatusCode): Quality {
   return status.equals(StatusCodes.BadOutOfRange) ? Quality.OutOfRange : Quality.Reported;
 }
 
-// Node-opcua has 64-bit integers as [high, low].
-function whole_of([high, low]: [number, number], is_signed: boolean): bigint {
-  const bits = (BigInt(high) << 32n) | BigInt(low >>> 0);
-  return is_signed ? BigInt.asIntN(64, bits) : BigInt.asUintN(64, bits);
-}
-
 // The text of a JSON number, null for NaN and infinities; nothing if it is no number.
 export function number_in(variant: Variant | undefined): string | undefined {
   if (!variant || variant.arrayType !== VariantArrayType.Scalar) return undefined;
   const { dataType, value } = variant;
   if (dataType === DataType.Boolean) return value ? "1" : "0";
-  if (dataType === DataType.Int64 || dataType === DataType.UInt64) return `${whole_of(value, dataType === DataType.Int64)}`;
+  if (dataType === DataType.Int64 || dataType === DataType.UInt64) return `${wide_of(value, dataType === DataType.Int64)}`;
   if (dataType !== DataType.Float && dataType !== DataType.Double && !INTEGERS.has(dataType)) return undefined;
   return JSON.stringify(value as number);
 }

@@ -96,10 +96,14 @@ function number_text(value: unknown): string {
   return Object.is(value, -0) ? "-0" : `${value}`;
 }
 
+// Node-opcua has 64-bit integers as [high, low].
+export function wide_of([high, low]: number[], signed: boolean): bigint {
+  const wide = (BigInt(high >>> 0) << 32n) | BigInt(low >>> 0);
+  return signed ? BigInt.asIntN(64, wide) : wide;
+}
+
 function wide_text(value: unknown, signed: boolean): string {
-  if (!Array.isArray(value) || value.length !== 2) return number_text(value);
-  const wide = (BigInt(value[0] >>> 0) << 32n) | BigInt(value[1] >>> 0);
-  return `${signed ? BigInt.asIntN(64, wide) : wide}`;
+  return Array.isArray(value) && value.length === 2 ? `${wide_of(value, signed)}` : number_text(value);
 }
 
 function element_text(value: unknown, form: Form): string {

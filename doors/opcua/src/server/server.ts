@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The OPC UA server: where it listens, what it demands of clients, what it limits.
 
-import { mkdir, readFile } from "node:fs/promises";
+import { readFile } from "node:fs/promises";
 import { hostname } from "node:os";
 import { join } from "node:path";
 
@@ -10,6 +10,7 @@ import {
   type ServerSession,
 } from "node-opcua";
 
+import { make_certificate_manager } from "../certificates";
 import { log } from "../log";
 import { VERSION, type Options } from "../options";
 import { nodeset_file } from "../space/nodesets";
@@ -32,10 +33,7 @@ export function is_loopback(address: string): boolean {
 
 // Clients' certificates: on loopback any, elsewhere those in trusted/certs, and those of --ca.
 async function certificates(options: Options): Promise<OPCUACertificateManager> {
-  const folder = join(options.state, "pki");
-  await mkdir(folder, { recursive: true, mode: 0o700 });
-  const manager = new OPCUACertificateManager({ rootFolder: folder, automaticallyAcceptUnknownCertificate: is_loopback(options.bind) });
-  await manager.initialize();
+  const manager = await make_certificate_manager(join(options.state, "pki"), is_loopback(options.bind));
   if (options.ca) await trust_authority(manager, options);
   return manager;
 }
