@@ -11,7 +11,6 @@ import os
 import pathlib
 import re
 import shutil
-import socket
 import statistics
 import subprocess
 import sys
@@ -21,19 +20,11 @@ import time
 from record import Node, print_lateness
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCE / "tests/support"))
+from processes import cpu_seconds, free_port  # noqa: E402
+
 SCRAPER = "import sys, time, urllib.request\nwhile True:\n  urllib.request.urlopen(sys.argv[1]).read()\n  time.sleep(1)\n"
 FOLLOWER = "import indurop, sys\nwith indurop.node(sys.argv[1]).stream('ROBOT_ARM') as rows:\n  for some in rows: pass\n"
-
-
-def cpu_s(pid):
-    fields = pathlib.Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
 
 
 class Shares:
@@ -41,11 +32,11 @@ class Shares:
 
     def __init__(self, children):
         self.children, self.begin = children, time.monotonic()
-        self.before = {name: cpu_s(child.pid) for name, child in children.items()}
+        self.before = {name: cpu_seconds(child.pid) for name, child in children.items()}
 
     def now(self):
         took = time.monotonic() - self.begin
-        return {name: 100 * (cpu_s(child.pid) - self.before[name]) / took for name, child in self.children.items()}
+        return {name: 100 * (cpu_seconds(child.pid) - self.before[name]) / took for name, child in self.children.items()}
 
 
 class Doors(Node):

@@ -16,15 +16,10 @@ sys.path.insert(0, str(HERE.parents[1] / "support"))
 import harness  # noqa: E402
 from harness import DEADLINE_S, TOKEN, wait_for  # noqa: E402, F401
 from npm_packages import skip  # noqa: E402
+from processes import free_port  # noqa: E402
 
 API = "/api/v1"
 BROKER = shutil.which("mosquitto") or shutil.which("/usr/sbin/mosquitto")
-
-
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
 
 
 class Subscriber:

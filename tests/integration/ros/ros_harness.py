@@ -4,11 +4,13 @@
 import os
 import pathlib
 import shutil
-import socket
 import subprocess
 import sys
 import tempfile
 import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from processes import free_port  # noqa: E402
 
 DEADLINE_S = 60
 
@@ -26,12 +28,6 @@ def wait_for(condition, what, limit=DEADLINE_S):
             return found
         time.sleep(0.02)
     raise AssertionError(f"not within {limit} s: {what}")
-
-
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
 
 
 class Setting:

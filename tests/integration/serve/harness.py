@@ -15,6 +15,9 @@ import tempfile
 import time
 import traceback
 
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from processes import cpu_seconds  # noqa: E402
+
 TOKEN = "the-token-of-these-tests-0123456789"
 DEADLINE_S = 60
 
@@ -124,8 +127,7 @@ class Server:
             return received
 
     def cpu_seconds(self):
-        words = pathlib.Path(f"/proc/{self.child.pid}/stat").read_text().rsplit(")", 1)[1].split()
-        return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
+        return cpu_seconds(self.child.pid)
 
 
 def main(tests):

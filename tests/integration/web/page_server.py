@@ -14,15 +14,10 @@ import time
 HERE = pathlib.Path(__file__).parent
 sys.path.insert(0, str(HERE.parents[1] / "support"))
 from npm_packages import fetch, skip  # noqa: E402
+from processes import free_port  # noqa: E402
 
 TOKEN = "a-token-that-is-only-for-tests-0123456789"
 PATIENCE = 60
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 def prepared(description, *names):

@@ -4,21 +4,17 @@
 share of both programs. Before it, images of 62 Hz that two processes of the same node read where they are.
 measure.py PROGRAMS MODULES [SECONDS]"""
 
-import os
 import pathlib
 import shutil
 import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1]))
+sys.path.insert(0, str(pathlib.Path(__file__).parents[3] / "support"))
 from harness import Setting, wait_for  # noqa: E402
+from processes import cpu_seconds  # noqa: E402
 
 SECONDS = float(sys.argv[3]) if len(sys.argv) > 3 else 10
-
-
-def cpu_s(pid):
-    fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def local(test):
@@ -40,10 +36,10 @@ def measure(test, name):
     ages = test.folder / f"ages-{name}-pools_eye.exe"
     wait_for(lambda: ages.read_text().count("\n") > 10, "images come")
     pids = [test.children[one + name].pid for one in ("send-", "receive-")]
-    skipped, before, begin = ages.read_text().count("\n"), [cpu_s(pid) for pid in pids], time.monotonic()
+    skipped, before, begin = ages.read_text().count("\n"), [cpu_seconds(pid) for pid in pids], time.monotonic()
     time.sleep(SECONDS)
     took = time.monotonic() - begin
-    shares = [100 * (cpu_s(pid) - first) / took for pid, first in zip(pids, before)]
+    shares = [100 * (cpu_seconds(pid) - first) / took for pid, first in zip(pids, before)]
     found = sorted(int(line) / 1e6 for line in ages.read_text().splitlines()[skipped:])
     print(f"{name}: {len(found) / took:.1f} Hz, age p50 {found[len(found) // 2]:.1f} ms, p99 "
           f"{found[len(found) * 99 // 100]:.1f} ms, CPU of a core: sender {shares[0]:.1f} %, receiver {shares[1]:.1f} %")
