@@ -31,8 +31,8 @@ Group::Group(GroupParts parts)
       reloading_(robot_, *this, plans_, gate_.clear(), torques_),
       breakdown_(robot_, *this),
       motion_report_(robot_, conveyor_) {
-  space_.set_shelf(shelf_.path().pieces);
-  ways_.set_shelf(shelf_.path().pieces);
+  space_.set_left(shelf_.paths());
+  ways_.set_left(shelf_.paths());
   begin_keeping();
 }
 

@@ -5,13 +5,14 @@ namespace indurop::robot {
 
 bool InterruptShelf::step_aside() noexcept {
   Follower& follower = robot_.follower;
+  Saved& saved = saved_[count_];
   if (!leaving_) {
     if (!follower.idle() && follower.at_rest()) {
       return false;
     }
     leaving_ = true;
-    asked_ = !plans_.free();
-    request_ = plans_.request();
+    saved.asked = !plans_.free();
+    saved.request = plans_.request();
     plans_.forget();
     follower.keep_path();
     follower.stop();
@@ -21,52 +22,51 @@ bool InterruptShelf::step_aside() noexcept {
   }
   follower.reset(robot_.commanded());  // braking ends where the path ends; nothing of it was saved yet
   leaving_ = false;
-  used_ = true;
-  path_ = follower.kept_path();
-  tool_ = robot_.tool.number();
-  ahead_.clear();
-  plans_.ahead().swap(ahead_);
+  paths_[count_++] = follower.kept_path();
+  saved.tool = robot_.tool.number();
+  saved.ahead.clear();
+  plans_.ahead().swap(saved.ahead);
   resuming_.forget_steps();
   plans_.disconnect();
   return true;
 }
 
 bool InterruptShelf::come_back(Fault& fault) noexcept {
-  if (!group_.change_tool(tool_)) {
+  if (!group_.change_tool(saved_[count_ - 1].tool)) {
     return false;
   }
-  if (!resuming_.is_near(path_.q)) {
+  if (!resuming_.is_near(path().q)) {
     fault = {ErrorCode::Away};
     return false;
   }
-  resuming_.begin_from_interrupt(path_.q);
+  resuming_.begin_from_interrupt(path().q);
   return true;
 }
 
-// The interrupted job becomes the current one again, to be left or continued.
-void InterruptShelf::restore() noexcept {
-  used_ = false;
-  robot_.follower.set_kept_path(path_);
+const InterruptShelf::Saved& InterruptShelf::restore() noexcept {
+  Saved& saved = saved_[--count_];
+  robot_.follower.set_kept_path(paths_[count_]);
+  paths_[count_].pieces.count = 0;
   plans_.ahead().clear();
-  plans_.ahead().swap(ahead_);
-  plans_.set_request(request_);
+  plans_.ahead().swap(saved.ahead);
+  plans_.set_request(saved.request);
   resuming_.forget_steps();
+  return saved;
 }
 
 void InterruptShelf::end_come_back() noexcept {
   resuming_.cancel_way_back();
-  restore();
-  resuming_.continue_on_path(asked_);
+  resuming_.continue_on_path(restore().asked);
 }
 
 bool InterruptShelf::set_job_aside() noexcept {
   if (resuming_.way_back() == Resuming::Return::FromInterrupt) {
-    restore();
-    resuming_.set_aside(tool_, asked_);
+    const Saved& saved = restore();
+    resuming_.set_aside(saved.tool, saved.asked);
   } else if (leaving_) {
     leaving_ = false;
-    plans_.set_request(request_);
-    resuming_.set_aside(robot_.tool.number(), asked_);
+    plans_.set_request(saved_[count_].request);
+    resuming_.set_aside(robot_.tool.number(), saved_[count_].asked);
   } else {
     return false;
   }
@@ -74,8 +74,11 @@ bool InterruptShelf::set_job_aside() noexcept {
 }
 
 void InterruptShelf::drop() noexcept {
-  used_ = leaving_ = false;
-  ahead_.clear();
+  leaving_ = false;
+  for (; count_ > 0; --count_) {
+    paths_[count_ - 1].pieces.count = 0;
+    saved_[count_ - 1].ahead.clear();
+  }
 }
 
 }  // namespace indurop::robot

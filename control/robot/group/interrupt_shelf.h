@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interrupts of jobs: the state of the running job is saved here while the job that was called moves the robot, and is
-// restored when the robot has come back. Meanwhile the follower and the plans belong to the interrupt.
+// restored when the robot has come back. Meanwhile the follower and the plans belong to the interrupt, which may be
+// interrupted as well: the last state saved is the first one restored.
 
 #pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
 
 #include "control/robot/group/group_port.h"
 #include "control/robot/group/plans.h"
 #include "control/robot/group/resuming.h"
 #include "control/robot/group/robot.h"
+#include "control/robot/job/job.h"
 
 namespace indurop::robot {
 
@@ -19,12 +25,14 @@ class InterruptShelf {
         group_(group),
         plans_(plans),
         resuming_(resuming),
-        ahead_(robot.tool.places(), robot.parts.tool) {}
+        saved_{Saved(robot), Saved(robot), Saved(robot)} {}
 
   // Calls add(vector) for the memory that changes, see KeptImage.
   template <class Add>
   void blocks(const Add& add) {
-    ahead_.blocks(add);
+    for (Saved& saved : saved_) {
+      saved.ahead.blocks(add);
+    }
   }
 
   // Comes to rest as softly as the motion itself, and saves the job. While the motion is held it stays on its path, and
@@ -32,9 +40,12 @@ class InterruptShelf {
   bool step_aside() noexcept;
   // Returns whether the job is on the way to rest for that.
   [[nodiscard]] bool leaving() const noexcept { return leaving_; }
-  // Joint values where the path was left; null if no job is saved.
-  [[nodiscard]] const Joints* left_at() const noexcept { return used_ ? &path_.q : nullptr; }
-  [[nodiscard]] const KeptPath& path() const noexcept { return path_; }
+  // Joint values where the path was left last; null if no job is saved.
+  [[nodiscard]] const Joints* left_at() const noexcept { return count_ > 0 ? &path().q : nullptr; }
+  // The path that was left last; a job is saved.
+  [[nodiscard]] const KeptPath& path() const noexcept { return paths_[count_ - 1]; }
+  // All paths that were left, and as many empty ones as may still be.
+  [[nodiscard]] std::span<const KeptPath> paths() const noexcept { return paths_; }
   // Begins the way back to the path. Returns false if it is not begun. Errors: Away.
   bool come_back(Fault& fault) noexcept;
   // The robot is back on the path: the saved job continues.
@@ -45,19 +56,26 @@ class InterruptShelf {
   void drop() noexcept;
 
  private:
-  void restore() noexcept;
+  // What is saved of a job, in addition to its path.
+  struct Saved {
+    explicit Saved(const Robot& robot) : ahead(robot.tool.places(), robot.parts.tool) {}
+
+    ReadAhead ahead;
+    PlanRequest request{};
+    bool asked = false;  // a plan was being made
+    int tool = 0;
+  };
+  // The job that was saved last becomes the current one again, to be left or continued.
+  const Saved& restore() noexcept;
 
   Robot& robot_;
   GroupPort& group_;
   Plans& plans_;
   Resuming& resuming_;
   bool leaving_ = false;
-  bool used_ = false;
-  KeptPath path_;
-  ReadAhead ahead_;
-  PlanRequest request_;
-  bool asked_ = false;  // a plan was being made
-  int tool_ = 0;
+  std::size_t count_ = 0;  // of saved jobs
+  std::array<KeptPath, kMaxPriorities> paths_{};
+  std::array<Saved, kMaxPriorities> saved_;
 };
 
 }  // namespace indurop::robot

@@ -66,7 +66,8 @@ SpaceCells* SharedSpace::cells_for_plan(const PlanningDesk& desk) noexcept {
   for (SpaceCells& cells : memory_.front().plans) {
     const bool followed = std::find(motions_.begin(), motions_.end(), &cells) != motions_.end();
     if (!followed && !desk.uses(&cells) && !leads(robot_.follower.path().pieces(), &cells) &&
-        !leads(robot_.follower.kept_path().pieces, &cells) && !leads(*shelf_, &cells)) {
+        !leads(robot_.follower.kept_path().pieces, &cells) &&
+        std::none_of(left_.begin(), left_.end(), [&](const KeptPath& path) { return leads(path.pieces, &cells); })) {
       return &cells;
     }
   }

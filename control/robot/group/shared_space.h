@@ -40,8 +40,8 @@ class SharedSpace {
       add(memory_);
     }
   }
-  // The path of a job that was interrupted, whose cells are not used for anything else meanwhile.
-  void set_shelf(const PathPieces& shelf) noexcept { shelf_ = &shelf; }
+  // The paths of jobs that were interrupted, whose cells are not used for anything else meanwhile.
+  void set_left(std::span<const KeptPath> left) noexcept { left_ = left; }
 
   // Takes the reports of the other robots. Returns whether one of them has come into the cells of this robot since the
   // last period; text() says which. `held`: this robot would not move now.
@@ -79,7 +79,8 @@ class SharedSpace {
     SpaceCells here{};             // these, and those of granted motions
     SpaceCells recent{}, older{};  // of motions that have ended: drives lag behind
     SpaceCells next{};             // being computed
-    std::array<SpaceCells, 12> plans{};
+    // Of all paths (followed, kept, interrupted), and of those that are being planned.
+    std::array<SpaceCells, (2 + kMaxPriorities) * PathPieces::kMaxSegments + 3> plans{};
   };
   // The way for which `ahead` was computed: from the place that the drives report over the last set points to where the
   // axes come to rest if all of them brake now.
@@ -125,7 +126,7 @@ class SharedSpace {
   Others others_{};
   std::array<std::uint32_t, kOtherRobots> intrusions_{};  // seen, of each other robot
   std::array<bool, kOtherRobots> seen_{};
-  const PathPieces* shelf_ = nullptr;
+  std::span<const KeptPath> left_;
   std::array<const SpaceCells*, PathPieces::kMaxSegments> motions_{};  // followed in the last period
   Way way_;
   const SpaceCells* granted_ = nullptr;  // of a motion that does not begin yet

@@ -14,7 +14,8 @@ ToolWay* WaysAhead::for_plan(const PlanningDesk& desk, const ToolWay* taken) noe
   };
   auto* const free = std::find_if(ways_.begin(), ways_.end(), [&](const ToolWay& way) {
     return &way != taken && !desk.uses(&way) && !leads(robot_.follower.path().pieces(), &way) &&
-           !leads(robot_.follower.kept_path().pieces, &way) && !leads(*shelf_, &way);
+           !leads(robot_.follower.kept_path().pieces, &way) &&
+           std::none_of(left_.begin(), left_.end(), [&](const KeptPath& path) { return leads(path.pieces, &way); });
   });
   if (free == ways_.end()) {
     return nullptr;

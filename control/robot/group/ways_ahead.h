@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "control/robot/group/robot.h"
 #include "control/robot/plan/planning_desk.h"
@@ -15,8 +16,8 @@ class WaysAhead {
  public:
   explicit WaysAhead(const Robot& robot) noexcept : robot_(robot) {}
 
-  // The path of a job that was interrupted, whose ways are not used for anything else meanwhile.
-  void set_shelf(const PathPieces& shelf) noexcept { shelf_ = &shelf; }
+  // The paths of jobs that were interrupted, whose ways are not used for anything else meanwhile.
+  void set_left(std::span<const KeptPath> left) noexcept { left_ = left; }
   // Memory for the way of a motion that is about to be planned, other than `taken`; null: there is none.
   [[nodiscard]] ToolWay* for_plan(const PlanningDesk& desk, const ToolWay* taken = nullptr) noexcept;
   // `known`: the arm follows its path where that was planned.
@@ -24,11 +25,11 @@ class WaysAhead {
 
  private:
   const Robot& robot_;
-  const PathPieces* shelf_ = nullptr;
+  std::span<const KeptPath> left_;
   std::uint32_t made_ = 0;
   std::array<std::uint32_t, kWaysAhead> reported_{};  // ToolWay::number; 0: none
-  // Of three paths (followed, kept, interrupted), two requests, and one more each.
-  std::array<ToolWay, 3 * PathPieces::kMaxSegments + 6> ways_{};
+  // Of all paths (followed, kept, interrupted), two requests, and one more each.
+  std::array<ToolWay, (2 + kMaxPriorities) * PathPieces::kMaxSegments + 6> ways_{};
 };
 
 }  // namespace indurop::robot

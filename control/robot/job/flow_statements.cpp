@@ -4,6 +4,8 @@
 #include <indurop/robot/questions.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -206,9 +208,37 @@ void FlowReader::arm() {
   step.formula = formula;
   step.mid = 0;
   step.slot = static_cast<int>(draft_.book().interrupts.size());
-  if (!line_.failed()) {
-    draft_.book().interrupts.push_back({formula, -1});
-    names_.refer(JobNames::To::Job, "job");
+  if (line_.failed()) {
+    return;
+  }
+  draft_.book().interrupts.push_back({formula, -1});
+  names_.refer(JobNames::To::Job, "job");
+  priority();
+}
+
+// Parses "PRIORITY 1" of the ON that was added to the book last.
+void FlowReader::priority() {
+  constexpr int kLast = JobBook::Interrupt::kLast;
+  auto& all = draft_.book().interrupts;
+  const JobToken start = line_.peek();
+  if (!line_.failed() && line_.accept("PRIORITY")) {
+    const JobToken number = line_.peek();
+    double priority = 0;
+    if (line_.numbers(1, &priority, "the number of the priority") &&
+        (priority != std::floor(priority) || priority < 1 || priority >= kLast)) {
+      line_.error(number,
+                  "a priority is a whole number from 1, which interrupts all others, to " + std::to_string(kLast - 1));
+    }
+    all.back().priority = line_.failed() ? kLast : static_cast<int>(priority);
+  }
+  std::set<int> different;
+  for (const auto& each : all) {
+    different.insert(each.priority);
+  }
+  if (different.size() > kMaxPriorities) {
+    line_.error(start, "the ON of these jobs have more than " + std::to_string(kMaxPriorities) +
+                           " different priorities; one without PRIORITY comes after all others, and counts as well");
+    all.back().priority = all.front().priority;
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Statements that wait, ask, jump, call and fail: WAIT, ASK, GOTO and LABEL, CALL, RETURN, RAISE, MESSAGE, and
-// interrupts, "ON I4 AND I5 CALL eject", "OFF CALL eject".
+// interrupts, "ON I4 AND I5 CALL eject PRIORITY 1", "OFF CALL eject".
 
 #pragma once
 
@@ -31,6 +31,7 @@ class FlowReader {
   void timeout(Step& step);
   void choices(JobQuestion& question);
   void range(JobQuestion& question);
+  void priority();
 
   JobLine& line_;
   JobDraft& draft_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/job/interrupts.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace indurop::robot {
@@ -9,6 +8,7 @@ namespace indurop::robot {
 void Interrupts::reset() noexcept {
   all_ = {};
   phase_ = Phase::None;
+  count_ = 0;
 }
 
 bool Interrupts::is_true(std::size_t interrupt, Signals& signals) const noexcept {
@@ -41,20 +41,29 @@ void Interrupts::monitor(Signals& signals) noexcept {
   }
 }
 
-bool Interrupts::any_pending() const noexcept {
-  return std::any_of(all_.begin(), all_.end(), [](const Monitored& each) { return each.pending; });
-}
-
-void Interrupts::serve_first() noexcept {
-  const auto* const first = std::find_if(all_.begin(), all_.end(), [](const Monitored& each) { return each.pending; });
-  served_ = static_cast<std::size_t>(first - all_.begin());
-  phase_ = Phase::Leaving;
+std::size_t Interrupts::due() const noexcept {
+  std::size_t found = book_.interrupts.size();
+  int below = count_ > 0 ? served_[count_ - 1] : JobBook::Interrupt::kLast + 1;
+  for (std::size_t i = 0; i < book_.interrupts.size(); ++i) {
+    if (all_[i].pending && book_.interrupts[i].priority < below) {
+      found = i;
+      below = book_.interrupts[i].priority;
+    }
+  }
+  return found;
 }
 
 int Interrupts::begin() noexcept {
-  all_[served_].pending = false;
+  const std::size_t first = due();
+  all_[first].pending = false;
+  served_[count_++] = book_.interrupts[first].priority;
   phase_ = Phase::Running;
-  return book_.interrupts[served_].job;
+  return book_.interrupts[first].job;
+}
+
+void Interrupts::end() noexcept {
+  --count_;
+  cancel_leaving();
 }
 
 }  // namespace indurop::robot

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interrupts of a job: conditions that are monitored while it runs. One that becomes true stops the robot on its path;
-// the job it calls runs, the robot returns, and the interrupted job continues. Here is which of them are armed, which
-// have come, and how far the one that is served is. Real-time safe.
+// the job it calls runs, the robot returns, and the interrupted job continues. The job that was called can be
+// interrupted in the same way, by an interrupt with a lower priority number. Here is which of them are armed, which
+// have come, which are served, and how far the innermost of these is. Real-time safe.
 
 #pragma once
 
@@ -27,28 +28,33 @@ class Interrupts {
   // Called once per period: evaluates the conditions of those that are armed.
   void monitor(Signals& signals) noexcept;
 
-  // What is done for the interrupt that is served.
+  // What is done for the innermost interrupt.
   enum class Phase {
     None,      // no interrupt is served
-    Leaving,   // the robot comes to rest on its path
+    Leaving,   // the robot comes to rest on its path, for one that is not among the served ones yet
     Running,   // the job that the interrupt calls runs
     Returning  // the robot returns to its path
   };
-  [[nodiscard]] Phase phase() const noexcept { return phase_; }
   [[nodiscard]] bool is(Phase phase) const noexcept { return phase_ == phase; }
-  // Returns whether one has come that is not served yet.
-  [[nodiscard]] bool any_pending() const noexcept;
-  // Begins to serve the first one that has come.
-  void serve_first() noexcept;
-  // The robot is at rest: returns the job to call.
+  // Number of those that are served: each of them interrupts the job of the one before.
+  [[nodiscard]] std::size_t served() const noexcept { return count_; }
+  // Returns whether one has come that may interrupt what runs now.
+  [[nodiscard]] bool any_due() const noexcept { return due() < book_.interrupts.size(); }
+  // One that is due is about to be served.
+  void begin_leaving() noexcept { phase_ = Phase::Leaving; }
+  // The robot is at rest: serves the one with the lowest priority number that is due now, and returns the job to call.
   int begin() noexcept;
   // The called job has ended.
   void begin_return() noexcept { phase_ = Phase::Returning; }
-  // The robot is back, or it is not to be served now. One whose job was not called yet remains pending.
-  void end() noexcept { phase_ = Phase::None; }
+  // The robot is back: the innermost one is served no longer.
+  void end() noexcept;
+  // What is due is not to be served now; it remains due.
+  void cancel_leaving() noexcept { phase_ = count_ > 0 ? Phase::Running : Phase::None; }
 
  private:
   [[nodiscard]] bool is_true(std::size_t interrupt, Signals& signals) const noexcept;
+  // Index in the book; of several with the same priority, the first one. The number of interrupts: none is due.
+  [[nodiscard]] std::size_t due() const noexcept;
 
   struct Monitored {
     bool armed = false;
@@ -59,7 +65,8 @@ class Interrupts {
   const JobBook& book_;
   std::array<Monitored, kMaxInterrupts> all_{};  // in the order of the book
   Phase phase_ = Phase::None;
-  std::size_t served_ = 0;
+  std::array<int, kMaxPriorities> served_{};  // their priority numbers, which decrease
+  std::size_t count_ = 0;
 };
 
 }  // namespace indurop::robot

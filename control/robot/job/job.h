@@ -206,10 +206,11 @@ struct Job {
   bool returns_value = false;  // by a RETURN
 };
 
-inline constexpr std::size_t kMaxVariables = 128;  // per job, elements of arrays included
-inline constexpr std::size_t kMaxComputed = 32;    // points and frames that jobs compute, of all jobs together
-inline constexpr std::size_t kMaxInterrupts = 8;   // of all jobs together
-inline constexpr std::size_t kMaxLoops = 8;        // inside each other
+inline constexpr std::size_t kMaxVariables = 128;   // per job, elements of arrays included
+inline constexpr std::size_t kMaxComputed = 32;     // points and frames that jobs compute, of all jobs together
+inline constexpr std::size_t kMaxInterrupts = 128;  // of all jobs together
+inline constexpr std::size_t kMaxPriorities = 3;    // of interrupts, so many of which may be inside each other
+inline constexpr std::size_t kMaxLoops = 8;         // inside each other
 
 // A shared variable or a SYNC that jobs use, and the first place where it is used.
 struct NamedVariable {
@@ -238,10 +239,13 @@ struct JobBook {
   std::vector<Wave> waves{};
   std::vector<JobPush> pushes{};
   std::vector<NamedVariable> syncs{};
-  // An ON statement: its condition, and the job that it calls when the condition becomes true.
+  // An ON statement: its condition, and the job that it calls when the condition becomes true. One with a lower
+  // priority number interrupts the jobs of others.
   struct Interrupt {
+    static constexpr int kLast = 100;  // without a PRIORITY
     int formula = -1;
     int job = -1;
+    int priority = kLast;
   };
   std::vector<Interrupt> interrupts{};
 

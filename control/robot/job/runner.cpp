@@ -117,7 +117,7 @@ bool JobRunner::step_outputs(double seconds, Signals& signals, const MotionPort&
 }
 
 JobRunner::Next JobRunner::leave(Signals& signals, MotionPort& port) noexcept {
-  if (interrupts_.is(Interrupts::Phase::Running) && jobs_.depth() == interrupted_.depth + 1) {
+  if (interrupts_.is(Interrupts::Phase::Running) && jobs_.depth() == interrupted_[interrupts_.served() - 1].depth + 1) {
     return leave_interrupt(port);
   }
   if (jobs_.depth() > 0) {

@@ -6,6 +6,7 @@
 
 #include <indurop/robot/controller.h>
 
+#include <array>
 #include <cstdint>
 
 #include "control/robot/job/breakpoints.h"
@@ -133,7 +134,7 @@ class JobRunner {
   int load_ = 0;
   JobOutputs outputs_;
   Interrupts interrupts_;
-  // The state to continue with after the interrupt.
+  // The state to continue with after an interrupt.
   struct Interrupted {
     JobState state = JobState::Runs;
     int depth = -1;
@@ -145,8 +146,8 @@ class JobRunner {
     JobPlaces::Finding found;
     bool in_job = false;
   };
-  Interrupted interrupted_;
-  std::uint32_t ticket_ = 0;  // last motion that was commanded
+  std::array<Interrupted, kMaxPriorities> interrupted_;  // in the order in which they were interrupted
+  std::uint32_t ticket_ = 0;                             // last motion that was commanded
   LineBreakpoints pauses_;
   bool in_job_ = false;  // started with a line other than the first, and has not moved yet
   std::uint32_t line_ = 0;

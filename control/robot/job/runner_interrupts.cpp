@@ -12,15 +12,15 @@ namespace indurop::robot {
 // Called once per period. Returns true if the job does nothing else in this period.
 bool JobRunner::serve_interrupts(Signals& signals, MotionPort& port) noexcept {
   interrupts_.monitor(signals);
-  if (interrupts_.is(Interrupts::Phase::None)) {
-    if (!interrupts_.any_pending() || search_.met || long_.off_path()) {
+  if (interrupts_.is(Interrupts::Phase::None) || interrupts_.is(Interrupts::Phase::Running)) {
+    if (!interrupts_.any_due() || search_.met || long_.off_path()) {
       return false;  // what comes to rest for UNTIL has no path to return to, others are not on their path
     }
     if (jobs_.is_full()) {
       fail({ErrorCode::Line}, "an interrupt came here, but jobs call each other too deep for another one", 0);
       return true;
     }
-    interrupts_.serve_first();
+    interrupts_.begin_leaving();
   }
   if (interrupts_.is(Interrupts::Phase::Leaving)) {
     if (!port.step_aside()) {
@@ -37,8 +37,9 @@ bool JobRunner::serve_interrupts(Signals& signals, MotionPort& port) noexcept {
 }
 
 void JobRunner::begin_interrupt() noexcept {
-  interrupted_ = {state_,  jobs_.depth(),   waited_, question_.asked(), settings_, outputs_.on_path,
-                  search_, places_.found(), in_job_};
+  interrupted_[interrupts_.served()] = {state_,    jobs_.depth(),    waited_, question_.asked(),
+                                        settings_, outputs_.on_path, search_, places_.found(),
+                                        in_job_};
   state_ = JobState::Runs;
   waited_ = 0;
   question_.close();
@@ -61,7 +62,7 @@ JobRunner::Next JobRunner::leave_interrupt(MotionPort& port) noexcept {
 }
 
 void JobRunner::end_interrupt() noexcept {
-  const Interrupted& left = interrupted_;
+  const Interrupted& left = interrupted_[interrupts_.served() - 1];
   jobs_.return_to(left.depth);
   state_ = left.state;
   waited_ = left.waited;
@@ -126,7 +127,7 @@ bool JobRunner::continue_after(double number, std::uint32_t ticket) noexcept {
   if (!running() || interrupts_.is(Interrupts::Phase::Leaving) || interrupts_.is(Interrupts::Phase::Returning)) {
     return false;
   }
-  const int last = interrupts_.is(Interrupts::Phase::Running) ? interrupted_.depth + 1 : 0;
+  const int last = interrupts_.served() > 0 ? interrupted_[interrupts_.served() - 1].depth + 1 : 0;
   for (int depth = jobs_.depth(); depth >= last; --depth) {
     const Step* const step = jobs_.step_at(depth);
     if (step == nullptr || step->guard < 0) {

@@ -48,7 +48,7 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
 
 void JobRunner::resume() noexcept {
   if (interrupts_.is(Interrupts::Phase::Leaving)) {
-    interrupts_.end();
+    interrupts_.cancel_leaving();
   } else if (interrupts_.is(Interrupts::Phase::Returning)) {
     end_interrupt();
   }

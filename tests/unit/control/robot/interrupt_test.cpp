@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "interrupt_cell.h"
 #include "job_world.h"
-#include "limit_judge.h"
 
 namespace indurop::robot {
 namespace {
@@ -39,10 +39,10 @@ TEST(Interrupt, Errors_are_reported_with_their_place) {
   EXPECT_THAT(errors_of("OFF eject\n"), ElementsAre(HasSubstr("main.job:1:5: error: expected CALL")));
   EXPECT_THAT(errors_of("ON a+b+c+d+e+f+g+h+i > 1 CALL eject\n"), ElementsAre(HasSubstr("main.job:1:4: error: this")));
   std::string many;
-  for (int i = 0; i < 9; ++i) {
+  for (int i = 0; i < 129; ++i) {
     many += "ON I1 CALL eject\n";
   }
-  EXPECT_THAT(errors_of(many), ElementsAre(HasSubstr("main.job:9:1: error: there are more than 8 ON")));
+  EXPECT_THAT(errors_of(many), ElementsAre(HasSubstr("main.job:129:1: error: there are more than 128 ON")));
   EXPECT_THAT(errors_of("POINT A = POSE 500 0 300 RPY 180 0 0\nMOVC BACK A\n"),
               ElementsAre(HasSubstr("there is no point 'BACK'")));
   EXPECT_THAT(errors_of("POINT A = JOINT 0 0 0 0 0 0\nMOVJ A OFFSET 0, 0, 1\n"),
@@ -130,109 +130,7 @@ TEST(Interrupt, BACK_is_known_to_what_ON_has_called_only) {
 
 // ---- With the arm
 
-constexpr const char* kPoints =
-    "POINT H = JOINT 0 -20 10 0 100 0\nTOOL pen = POSE 0 40 90 RPY 0 0 0\n"
-    "POINT A = POSE 500 -250 300 RPY 180 0 180\nPOINT B = POSE 500 -100 200 RPY 180 0 150\n"
-    "POINT C = POSE 450 100 300 RPY 170 10 180\nPOINT D = POSE 450 250 350 RPY 180 0 200\n"
-    "POINT E = POSE 550 0 450 RPY 180 20 180\n";
 constexpr const char* kServe = "SET busy ON\nSPEED 40%\nTOOL pen\nMOVJ H\nTOOL FLANGE\nMOVJ BACK\nSET busy OFF\n";
-
-// Sets `out` to the number of each of its motions that is not a joint motion, on its way.
-std::string random_job(std::mt19937& random) {
-  const auto one_of = [&](int many) { return std::uniform_int_distribution<int>(0, many - 1)(random); };
-  const auto point = [&] { return std::string(1, static_cast<char>('A' + one_of(5))); };
-  std::string job = std::string(kPoints) + "ON I1 CALL other\nMOVJ H STRAIGHT\n";
-  for (int i = 1; i <= 6; ++i) {
-    job += one_of(3) == 0 ? fmt::format("SPEED {} mm/s\n", 100 + one_of(600)) : "";
-    switch (one_of(5)) {
-      case 0:
-        job += "MOVJ " + point() + " STRAIGHT\n";
-        continue;
-      case 1:
-        job += "MOVL A\nMOVC E D\n";
-        break;
-      case 2:
-        job += "MOVS A B C D\n";
-        break;
-      default:
-        job += "MOVL " + point() + "\n";
-    }
-    job += fmt::format("SET out = {} BEFORE {} mm\n", i, one_of(60));
-  }
-  return job + "SET out = 0\n";
-}
-
-Vec3 tip(const Cell& cell) {
-  return {cell.out.position[0], cell.out.position[1], cell.out.position[2]};
-}
-
-double away(const std::vector<Vec3>& path, const Vec3& place) {
-  double least = HUGE_VAL;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Vec3 way = path[i] - path[i - 1];
-    const double part = std::clamp((place - path[i - 1]).dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
-    least = std::min(least, (place - path[i - 1] - part * way).squaredNorm());
-  }
-  return std::sqrt(least);
-}
-
-class Machine {
- public:
-  Machine(const std::string& job, const std::string& other) {
-    cell.sut = controller_of(cell_urdf(), job, {}, {{"other", other}});
-    cell.step();
-    EXPECT_TRUE(cell.serve(Service::GroupEnable));
-    cell.in.service.job = 1;
-    cell.ask(Service::JobStart);
-  }
-  double& signal(const std::string& name) {
-    const auto& names = cell.sut->signals();
-    return cell.values[std::find(names.begin(), names.end(), name) - names.begin()];
-  }
-  // What is set on the way, in its order.
-  void step() {
-    cell.step();
-    broken += judge_.look(cell, cell.in.emergency ? kEmergency : 1);
-    if (signal("out") != last_) {
-      last_ = signal("out");
-      set.push_back(last_);
-    }
-  }
-  template <class Condition>
-  [[nodiscard]] bool until(const Condition& condition) {
-    for (int i = 0; i < 5000 && !condition(); ++i) {
-      step();
-    }
-    return condition();
-  }
-  [[nodiscard]] bool ended() const { return cell.out.done == cell.in.service.number; }
-
-  Cell cell;
-  std::string broken;
-  std::vector<double> set;
-
- private:
-  Judge judge_{0.01};
-  double last_ = 0;
-};
-
-// Behind an emergency stop at any moment, also of an interrupt that comes, is served or returns.
-void go_on(Machine& sut) {
-  sut.cell.in.emergency = true;
-  ASSERT_TRUE(sut.cell.until([&] { return sut.cell.out.state == GroupState::ErrorStop; }));
-  sut.cell.in.emergency = false;
-  for (int i = 0; i < 50; ++i) {
-    sut.step();
-  }
-  ASSERT_TRUE(sut.cell.serve(Service::GroupReset)) << to_string(sut.cell.out.error);
-  ASSERT_TRUE(sut.cell.serve(Service::GroupEnable)) << to_string(sut.cell.out.error);
-  for (int i = 0; i < 4; ++i) {
-    sut.step();
-  }
-  sut.broken.clear();  // the judge did not see the stop
-  ASSERT_TRUE(sut.cell.out.job.can_resume);
-  sut.cell.ask(Service::JobResume);
-}
 
 TEST(Interrupt, Anywhere_on_a_path_it_is_left_and_taken_up_within_all_limits) {
   const char* wanted = std::getenv("INDUROP_ROBOT_JOBS");
@@ -242,8 +140,8 @@ TEST(Interrupt, Anywhere_on_a_path_it_is_left_and_taken_up_within_all_limits) {
   double farthest = 0;
   for (unsigned seed = 1; seed <= jobs; ++seed) {
     std::mt19937 random(seed);
-    const std::string job = random_job(random);
-    Machine calm(job, kServe);
+    const std::string job = random_job("ON I1 CALL other\n", random);
+    JobMachine calm(job, {{"other", kServe}});
     std::vector<Vec3> path;
     for (int i = 0; i < 20'000 && !calm.ended(); ++i) {
       calm.step();
@@ -252,7 +150,7 @@ TEST(Interrupt, Anywhere_on_a_path_it_is_left_and_taken_up_within_all_limits) {
     if (calm.cell.out.error != ErrorCode::Ok) {
       continue;  // not every way is possible
     }
-    Machine sut(job, kServe);
+    JobMachine sut(job, {{"other", kServe}});
     const auto happens = [&](double per_second) {
       return std::uniform_real_distribution<double>(0, 1)(random) < per_second * 0.01;
     };
@@ -301,9 +199,9 @@ TEST(Interrupt, The_tool_is_drawn_back_from_where_the_path_was_left) {
        {Case{"MOVL BACK OFFSET TOOL 0, 0, -50\n", {0, 0, 50}}, Case{"MOVL BACK OFFSET 20, 0, 30\n", {20, 0, 30}},
         Case{"TOOL pen\nMOVL BACK OFFSET TOOL 0, 0, -50\nTOOL FLANGE\n", {0, 0, 50}},
         Case{"MOVJ BACK OFFSET 0, 0, 40\n", {0, 0, 40}}}) {
-    Machine sut(std::string(kPoints) + "ON I1 CALL other\nMOVJ A\nSPEED 100 mm/s\nMOVL B\nSET out = 1\n",
-                "SET busy ON\nWAIT 0.1s\nSPEED 30%\n" + std::string(each.line) +
-                    "SET busy = 2\nWAIT 0.2s\nMOVL BACK\nSET busy OFF\n");
+    JobMachine sut(kInterruptPoints + "ON I1 CALL other\nMOVJ A\nSPEED 100 mm/s\nMOVL B\nSET out = 1\n",
+                   {{"other", "SET busy ON\nWAIT 0.1s\nSPEED 30%\n" + std::string(each.line) +
+                                  "SET busy = 2\nWAIT 0.2s\nMOVL BACK\nSET busy OFF\n"}});
     ASSERT_TRUE(sut.until([&] { return sut.cell.out.job.line == 11 && sut.cell.out.tool_speed > 90; }));
     sut.signal("I1") = 1;
     ASSERT_TRUE(sut.until([&] { return sut.signal("busy") == 1; }));
@@ -317,8 +215,8 @@ TEST(Interrupt, The_tool_is_drawn_back_from_where_the_path_was_left) {
 }
 
 TEST(Interrupt, One_that_ends_far_from_the_path_stops_the_job_with_what_to_do) {
-  Machine sut(std::string(kPoints) + "ON I1 CALL other\nMOVJ A\nSPEED 100 mm/s\nMOVL B\nSET out = 1\n",
-              "SET busy ON\nMOVJ D\n");
+  JobMachine sut(kInterruptPoints + "ON I1 CALL other\nMOVJ A\nSPEED 100 mm/s\nMOVL B\nSET out = 1\n",
+                 {{"other", "SET busy ON\nMOVJ D\n"}});
   ASSERT_TRUE(sut.until([&] { return sut.cell.out.job.line == 11 && sut.cell.out.tool_speed > 90; }));
   sut.signal("I1") = 1;
   ASSERT_TRUE(sut.until([&] { return sut.cell.out.state == GroupState::ErrorStop; }));
@@ -329,7 +227,8 @@ TEST(Interrupt, One_that_ends_far_from_the_path_stops_the_job_with_what_to_do) {
 }
 
 TEST(Interrupt, A_hold_lets_it_wait) {
-  Machine sut(std::string(kPoints) + "ON I1 CALL other\nMOVJ A\nSPEED 100 mm/s\nMOVL B\nSET out = 1\n", kServe);
+  JobMachine sut(kInterruptPoints + "ON I1 CALL other\nMOVJ A\nSPEED 100 mm/s\nMOVL B\nSET out = 1\n",
+                 {{"other", kServe}});
   ASSERT_TRUE(sut.until([&] { return sut.cell.out.job.line == 11 && sut.cell.out.tool_speed > 90; }));
   sut.cell.in.hold = true;
   ASSERT_TRUE(sut.until([&] { return sut.cell.out.tool_speed < 1e-9; }));

@@ -134,25 +134,25 @@ TEST(Interrupts, Come_when_their_condition_becomes_true_and_are_served_in_the_or
   sut.arm(0, world);
   sut.arm(1, world);
   sut.monitor(world);
-  EXPECT_FALSE(sut.any_pending()) << "it was true when it was armed";
+  EXPECT_FALSE(sut.any_due()) << "it was true when it was armed";
   world.values["a"] = 0;
   world.values["b"] = 1;
   sut.monitor(world);
   world.values["a"] = 1;
   world.values["b"] = 0;
   sut.monitor(world);
-  ASSERT_TRUE(sut.any_pending());
-  sut.serve_first();
+  ASSERT_TRUE(sut.any_due());
+  sut.begin_leaving();
   EXPECT_TRUE(sut.is(Interrupts::Phase::Leaving));
   EXPECT_EQ(sut.begin(), book.interrupts[0].job);
   sut.begin_return();
   sut.end();
   sut.monitor(world);
-  ASSERT_TRUE(sut.any_pending()) << "the other one came meanwhile";
-  sut.serve_first();
+  ASSERT_TRUE(sut.any_due()) << "the other one came meanwhile";
+  sut.begin_leaving();
   EXPECT_EQ(sut.begin(), book.interrupts[1].job);
   sut.end();
-  EXPECT_FALSE(sut.any_pending());
+  EXPECT_FALSE(sut.any_due());
 }
 
 TEST(Interrupts, That_are_disarmed_do_not_come) {
@@ -163,7 +163,7 @@ TEST(Interrupts, That_are_disarmed_do_not_come) {
   sut.disarm(book.interrupts[0].job);
   world.values["a"] = 1;
   sut.monitor(world);
-  EXPECT_FALSE(sut.any_pending());
+  EXPECT_FALSE(sut.any_due());
 }
 
 TEST(LineBreakpoints, Come_before_the_first_step_of_each_line_and_not_twice_before_the_same) {
