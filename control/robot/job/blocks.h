@@ -32,6 +32,8 @@ class BlockReader {
   void try_block();
   void recover();
   void end_block();
+  // Number of blocks that are open.
+  [[nodiscard]] std::size_t depth() const noexcept { return blocks_.size(); }
   // The job ends: each block without END is an error.
   void end();
 

@@ -12,6 +12,7 @@ void JobLine::begin(const std::string& file) {
 
 void JobLine::next(std::string_view text) {
   tokens_ = split_job_line(text);
+  keywords_.clear();
   at_ = 0;
   ++number_;
   failed_ = false;
@@ -23,7 +24,10 @@ base::SourcePlace JobLine::place(const JobToken& token) const noexcept {
 
 bool JobLine::accept(std::string_view word) {
   const bool matches = peek().kind != JobToken::Kind::Number && same_word(peek().text, word);
-  at_ += matches ? 1 : 0;
+  if (matches) {
+    keywords_.push_back({peek().column, word});
+    ++at_;
+  }
   return matches;
 }
 

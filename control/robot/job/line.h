@@ -24,6 +24,13 @@ class JobLine {
   // Goes to the next line.
   void next(std::string_view text);
 
+  // A token of the present line that was taken because it is this word, such as MOVL.
+  struct Keyword {
+    std::size_t column = 0;
+    std::string_view word;
+  };
+  [[nodiscard]] const std::vector<Keyword>& keywords() const noexcept { return keywords_; }
+
   [[nodiscard]] const std::string& file() const noexcept { return file_; }
   [[nodiscard]] std::size_t number() const noexcept { return number_; }
   [[nodiscard]] base::SourcePlace place(const JobToken& token) const noexcept;
@@ -35,7 +42,7 @@ class JobLine {
   [[nodiscard]] const JobToken& first() const { return tokens_.front(); }
   [[nodiscard]] bool at_end() const { return peek().kind == JobToken::Kind::End; }
   JobToken take() { return at_end() ? tokens_[at_] : tokens_[at_++]; }
-  // Takes the token if it is this word or sign.
+  // Takes the token if it is this word or sign, which must outlive the line.
   bool accept(std::string_view word);
   // Takes the tokens of a unit, such as mm/s. Where it does not come next, some of them may have been taken.
   bool accept_unit(std::string_view unit);
@@ -65,6 +72,7 @@ class JobLine {
   base::Diagnostics& errors_;
   std::string file_;
   std::vector<JobToken> tokens_;
+  std::vector<Keyword> keywords_;
   std::size_t at_ = 0;
   std::size_t number_ = 0;
   bool failed_ = false;

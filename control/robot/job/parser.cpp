@@ -39,28 +39,34 @@ JobParser::JobParser(JobBook& book, base::Diagnostics& errors, const ArmShape& s
       values_({line_, draft_, names_, expressions_}, flow_, place_formulas_),
       blocks_({line_, draft_, names_, expressions_}) {}
 
-void JobParser::read(const JobFile& file) {
+void JobParser::begin(const JobFile& file) {
   draft_.begin(file);
   names_.begin_job();
   blocks_.begin();
   line_.begin(file.path);
-  std::string_view rest = file.text;
-  if (rest.starts_with("\xEF\xBB\xBF")) {
-    rest.remove_prefix(3);
+}
+
+void JobParser::read_line(std::string_view text) {
+  line_.next(text);
+  if (!line_.at_end()) {
+    statement();
   }
-  while (!rest.empty() && draft_.next() <= kMostSteps) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    line_.next(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (!line_.at_end()) {
-      statement();
-    }
-  }
+}
+
+void JobParser::end() {
   line_.next({});
   if (draft_.next() > kMostSteps) {
     line_.error({}, "more than " + std::to_string(kMostSteps) + " steps; split the job and use CALL");
   }
   blocks_.end();
+}
+
+void JobParser::read(const JobFile& file) {
+  begin(file);
+  for (JobLines lines(file.text); !lines.at_end() && draft_.next() <= kMostSteps;) {
+    read_line(lines.take());
+  }
+  end();
 }
 
 // Long: one line for each statement.

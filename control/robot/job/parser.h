@@ -3,6 +3,10 @@
 
 #pragma once
 
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
 #include "control/robot/job/blocks.h"
 #include "control/robot/job/bodies.h"
 #include "control/robot/job/each_period.h"
@@ -26,6 +30,14 @@ class JobParser {
 
   // Reads one file as the next job of the book.
   void read(const JobFile& file);
+  // The same in parts: begin(), read_line() for each line, end().
+  void begin(const JobFile& file);
+  void read_line(std::string_view text);
+  void end();
+  // The words of the language in the line that was read last, in their order.
+  [[nodiscard]] const std::vector<JobLine::Keyword>& keywords() const noexcept { return line_.keywords(); }
+  // Number of blocks that are open after it.
+  [[nodiscard]] std::size_t depth() const noexcept { return blocks_.depth(); }
   // Resolves names; called after all files have been read.
   void resolve() { names_.resolve(); }
 

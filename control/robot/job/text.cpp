@@ -80,6 +80,18 @@ JobToken next_token(std::string_view text) noexcept {
 
 }  // namespace
 
+JobLines::JobLines(std::string_view text) noexcept : rest_(text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  rest_.remove_prefix(rest_.starts_with(kMark) ? kMark.size() : 0);
+}
+
+std::string_view JobLines::take() noexcept {
+  const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+  const std::string_view line = rest_.substr(0, end);
+  rest_.remove_prefix(std::min(end + 1, rest_.size()));
+  return line;
+}
+
 std::vector<JobToken> split_job_line(std::string_view line) {
   std::vector<JobToken> tokens;
   std::size_t at = 0;

@@ -18,6 +18,17 @@ struct JobToken {
   std::size_t column = 1;
 };
 
+// The lines of a text, without a byte order mark.
+class JobLines {
+ public:
+  explicit JobLines(std::string_view text) noexcept;
+  [[nodiscard]] bool at_end() const noexcept { return rest_.empty(); }
+  std::string_view take() noexcept;
+
+ private:
+  std::string_view rest_;
+};
+
 // The last token is always an End; a Text has its quotes. Comments begin with # or //.
 std::vector<JobToken> split_job_line(std::string_view line);
 // Compares ASCII letters regardless of case; keywords may be written in lower case.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any text is either a job that can be stepped or an error with its place, never a crash.
+// Any text is either a job that can be stepped or an error with its place, never a crash. Its layout is found at once.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "control/robot/job/format.h"
 #include "control/robot/job/job.h"
 #include "control/robot/job/runner.h"
 
@@ -24,7 +25,12 @@ class Nothing final : public indurop::robot::Signals, public indurop::robot::Mot
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto [book, errors] = indurop::robot::parse_jobs({{"a.job", {reinterpret_cast<const char*>(data), size}}});
+  const indurop::robot::JobFile file{"a.job", {reinterpret_cast<const char*>(data), size}};
+  const std::string formatted = indurop::robot::format_job(file);
+  if (indurop::robot::format_job({"a.job", formatted}) != formatted) {
+    std::abort();
+  }
+  const auto [book, errors] = indurop::robot::parse_jobs({file});
   for (const indurop::base::Diagnostic& error : errors) {
     if (error.file != "a.job" || error.place.line == 0) {
       std::abort();

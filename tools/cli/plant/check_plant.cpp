@@ -3,7 +3,6 @@
 #include "tools/console/table_text.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -17,10 +16,6 @@ namespace indurop::tools {
 namespace {
 
 using Names = std::vector<std::string>;
-
-Cell name_list(const Names& names) {
-  return {names.empty() ? "-" : fmt::format("{}", fmt::join(names, ", ")), JsonValue(names)};
-}
 
 Cell duration(base::Nanos value) {
   return {value > base::Nanos::zero() ? base::format_duration(value) : "", value.count()};

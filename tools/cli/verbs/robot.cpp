@@ -4,6 +4,7 @@
 
 #include "core/base/word_values.h"
 #include "tools/cli/robot/calibrating.h"
+#include "tools/cli/robot/formatting.h"
 #include "tools/cli/robot/guiding.h"
 #include "tools/cli/robot/hand.h"
 #include "tools/cli/robot/identifying.h"
@@ -39,6 +40,7 @@ struct RobotOptions {
   Hand hand{"", "base"};
   GuideOrder guide;
   RobotAnswer answer;
+  FormatOrder format;
   std::string recording;
   std::int64_t wait_ns = 0;
   std::function<int(Context&)> chosen;
@@ -175,6 +177,16 @@ void declare_calibrate(base::Options& app, Context& context, RobotOptions& optio
   add_format_option(command, context, {Format::Table, Format::Json, Format::Csv});
 }
 
+void declare_format(base::Options& app, RobotOptions& options) {
+  base::Options& command =
+      app.command("format", "Lay out job files: indentation, blanks, case of keywords",
+                  [&options] { options.chosen = [&options](Context& c) { return format_jobs(c, options.format); }; });
+  command.add("files", "FILE", options.format.files, "Job files, which are replaced")
+      .required()
+      .completes(base::Completion::File);
+  command.flag("--check", options.format.check, "Change nothing; exit code 4 if a file would change");
+}
+
 void declare_question(base::Options& app, Context& context, RobotOptions& options) {
   base::Options& command = app.command("question", "Show the question that the job asks the operator", [&options] {
     options.chosen = [&options](Context& c) { return show_question(c, options.choice, options.wait_ns); };
@@ -211,6 +223,7 @@ Action declare_robot(base::Options& app, Context& context) {
   declare_calibrate(app, context, *options);
   declare_question(app, context, *options);
   declare_answer(app, context, *options);
+  declare_format(app, *options);
   return [options](Context& c) { return options->chosen(c); };
 }
 
@@ -231,6 +244,7 @@ const Verb kRobotVerb{
     "  indurop robot reload\n"
     "  indurop robot points\n"
     "  indurop robot answer left\n"
+    "  indurop robot format *.job\n"
     "  indurop robot identify swing.mcap --config module.xml\n"
     "  indurop robot calibrate tool pen --take\n"
     "  indurop robot calibrate tool pen --accept\n",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop vars: lists a node's variables, their values, and which modules write and read them.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -27,10 +26,6 @@ struct VarsOptions {
 
 std::string shortened(const std::string& text) {
   return text.size() <= kLongestValue ? text : fmt::format("{:.{}}...", text, kLongestValue - 3);
-}
-
-Cell name_list(const std::vector<std::string>& names) {
-  return {names.empty() ? "-" : fmt::format("{}", fmt::join(names, ", ")), JsonValue(names)};
 }
 
 std::string properties_of(const schema::Variable& variable) {

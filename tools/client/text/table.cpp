@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/client/text/table.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "core/base/csv_row.h"
 
 namespace indurop::tools {
+
+Cell name_list(const std::vector<std::string>& names) {
+  return {names.empty() ? "-" : fmt::format("{}", fmt::join(names, ", ")), JsonValue(names)};
+}
+
 std::string Table::csv() const {
   std::string out;
   const char* separator = "";

@@ -37,6 +37,9 @@ struct Cell {
   Style style;
 };
 
+// "a, b", or "-" for none.
+Cell name_list(const std::vector<std::string>& names);
+
 class Table {
  public:
   explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
