@@ -40,7 +40,7 @@ class JobMotions final : public MotionPort {
   bool begin_correction(const CorrectionWay& way) noexcept override;
   bool end_correction() noexcept override;
   void correct(const Vec3& shift) noexcept override { correction_.want(shift); }
-  void press(const PressNeed& need) noexcept override { correction_.press(need); }
+  void press(const PressNeeds& needs) noexcept override { correction_.press(needs); }
   [[nodiscard]] bool rests() const noexcept override { return settled() && correction_.at_rest(); }
   Fault push(const PushWay& way) noexcept override { return push_.begin(way); }
   [[nodiscard]] PushState pushing() const noexcept override { return push_.state(); }

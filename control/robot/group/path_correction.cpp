@@ -27,6 +27,8 @@ void PathCorrection::begin(const CorrectionWay& way) noexcept {
   end();
   way_ = way;
   on_ = shifts_ = true;
+  // None depends on the others, so all of them together have to be within the limits of the whole shift.
+  part_ = 1 / std::sqrt(std::max(1.0, static_cast<double>(way_.directions())));
   const Joints here = robot_.commanded();
   for (std::size_t k = 0; k < kDirections; ++k) {
     measure(k, here);
@@ -36,8 +38,8 @@ void PathCorrection::begin(const CorrectionWay& way) noexcept {
 void PathCorrection::end() noexcept {
   on_ = shifts_ = false;
   wanted_ = Vec3::Zero();
-  need_ = {};
-  lasting_ = 0;
+  needs_ = {};
+  lasting_ = {};
   shift_ = {};
 }
 
@@ -82,8 +84,8 @@ void PathCorrection::measure(std::size_t direction, const Joints& q) noexcept {
 LineLimits PathCorrection::limits_of(std::size_t direction) const noexcept {
   const JointLimits& joints = robot_.parts.joints;
   const ToolLimits& tool = robot_.parts.tool;
-  const double share = kShare / (presses() ? 1 : static_cast<double>(kDirections));
-  LineLimits limits{way_.rate, tool.acceleration, tool.jerk};
+  const double share = kShare / (presses() ? way_.directions() : static_cast<int>(kDirections));
+  LineLimits limits{part_ * way_.rate, tool.acceleration, tool.jerk};
   for (int i = 0; i < robot_.count(); ++i) {
     const double rate = rates_[direction][i];
     if (rate > 0) {
@@ -99,7 +101,8 @@ LineLimits PathCorrection::limits_of(std::size_t direction) const noexcept {
 // less than they could when the shift began to move; it then brakes harder, with what is left of the reserve.
 Profile PathCorrection::way_of(std::size_t direction, std::optional<double> to) const noexcept {
   const LineState& from = shift_[direction];
-  const double most = kInside * way_.limit;
+  const double limit = part_ * way_.limit;
+  const double most = kInside * limit;
   const double place = std::clamp(to.value_or(0), -most, most);
   const LineLimits usual = limits_of(direction);
   Profile way;
@@ -107,32 +110,34 @@ Profile PathCorrection::way_of(std::size_t direction, std::optional<double> to) 
     const LineLimits limits{usual.velocity, hardness * usual.acceleration, hardness * usual.jerk};
     way = to ? Profile::to_rest(from, place, limits) : Profile::to_velocity(from, 0, limits);
     const auto [low, high] = way.extent();
-    if (low >= -way_.limit && high <= way_.limit) {
+    if (low >= -limit && high <= limit) {
       break;
     }
   }
   return way;
 }
 
-// As fast as the missing force demands, at most as fast as override and limits permit, and only as far as the limit of
-// the job: where that would be passed, it comes to rest there.
-Profile PathCorrection::way_of_press() noexcept {
-  const auto k = static_cast<std::size_t>(way_.pressed);
-  const LineState& from = shift_[k];
-  const LineLimits limits = limits_of(k);
+// In one direction: as fast as the missing force demands, at most as fast as override and limits permit, and only as
+// far as the limit of the job: where that would be passed, it comes to rest there.
+Profile PathCorrection::way_of_press(std::size_t direction) noexcept {
+  const LineState& from = shift_[direction];
+  const LineLimits limits = limits_of(direction);
+  const PressNeed& need = needs_[direction];
+  double& lasting = lasting_[direction];
   const double time = std::max(kPressTime, kPressPeriods * robot_.period);
   // A speed that cannot be left within that time would make the force swing.
   const double agile = std::min(limits.jerk * time * time / 4, limits.acceleration * time / 2);
   const double most = pace_ * std::min(limits.velocity, agile);
-  lasting_ += need_.missing * robot_.period / (kLasting * time);
-  lasting_ = need_.touches ? std::clamp(lasting_, -most * time, most * time) : 0;
-  const double wanted = (need_.missing + lasting_) / time;
+  lasting += need.missing * robot_.period / (kLasting * time);
+  lasting = need.touches ? std::clamp(lasting, -most * time, most * time) : 0;
+  const double wanted = (need.missing + lasting) / time;
   const Profile way = Profile::to_velocity(from, std::clamp(wanted, -most, most), limits);
   const auto [low, high] = Profile::to_velocity(way.at(robot_.period), 0, limits).extent();
-  if (low >= -kInside * way_.limit && high <= kInside * way_.limit) {
+  const double limit = part_ * way_.limit;
+  if (low >= -kInside * limit && high <= kInside * limit) {
     return way;
   }
-  return way_of(k, high > kInside * way_.limit ? way_.limit : -way_.limit);
+  return way_of(direction, high > kInside * limit ? limit : -limit);
 }
 
 // Each direction on its own, so that none of them ever exceeds the limit of the job.
@@ -140,15 +145,15 @@ void PathCorrection::move() noexcept {
   const bool moving = !robot_.follower.at_rest();
   for (std::size_t k = 0; k < kDirections; ++k) {
     const auto to = moving ? std::optional(wanted_[static_cast<Eigen::Index>(k)]) : std::nullopt;
-    const Profile way = static_cast<int>(k) == way_.pressed ? way_of_press() : way_of(k, to);
+    const Profile way = way_.pressed[k] ? way_of_press(k) : way_of(k, to);
     LineState next = way.at(robot_.period);
     if (way.duration() <= robot_.period && way.end().velocity == 0) {
       next = {way.end().position, 0, 0};
     }
-    next.position = std::clamp(next.position, -way_.limit, way_.limit);
+    next.position = std::clamp(next.position, -part_ * way_.limit, part_ * way_.limit);
     shift_[k] = next;
   }
-  need_ = {};
+  needs_ = {};
 }
 
 Fault PathCorrection::place(Joints& q) const noexcept {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shifts the path of a job by what a sensor measures, within the limits of the job and with the part of the joints'
 // limits that planning leaves for it: by a distance, which changes only while the robot moves along its path, or until
-// a force is reached, also at standstill.
+// forces are reached, also at standstill.
 
 #pragma once
 
@@ -30,7 +30,7 @@ class PathCorrection {
   // Part of its full speed that a tool that presses may have now, 0: it comes to rest.
   void set_pace(double part) noexcept { pace_ = part; }
   // What is missing to a tool that presses, in this period.
-  void press(const PressNeed& need) noexcept { need_ = need; }
+  void press(const PressNeeds& needs) noexcept { needs_ = needs; }
   // The arm no longer follows the path, but stands where it is. Its shift is kept for resume().
   void stand() noexcept;
   // The arm is where the path was left, with its shift.
@@ -41,7 +41,7 @@ class PathCorrection {
   // Returns whether the shift does not change.
   [[nodiscard]] bool at_rest() const noexcept;
   // Returns whether the shift may change while the path is at rest.
-  [[nodiscard]] bool presses() const noexcept { return shifts_ && way_.pressed >= 0; }
+  [[nodiscard]] bool presses() const noexcept { return shifts_ && way_.directions() > 0; }
   // m/s by which the tip may be faster than on the path.
   [[nodiscard]] double speed() const noexcept;
   // The part of the joints' limits that the path may use, also in a stop.
@@ -59,7 +59,7 @@ class PathCorrection {
   void measure(std::size_t direction, const Joints& q) noexcept;
   [[nodiscard]] LineLimits limits_of(std::size_t direction) const noexcept;
   [[nodiscard]] Profile way_of(std::size_t direction, std::optional<double> to) const noexcept;
-  [[nodiscard]] Profile way_of_press() noexcept;
+  [[nodiscard]] Profile way_of_press(std::size_t direction) noexcept;
   void move() noexcept;
   [[nodiscard]] Fault place(Joints& q) const noexcept;
 
@@ -68,9 +68,11 @@ class PathCorrection {
   bool on_ = false;
   bool shifts_ = false;
   Vec3 wanted_ = Vec3::Zero();
-  PressNeed need_;
+  PressNeeds needs_;
   double pace_ = 1;
-  double lasting_ = 0;  // m, by what has been missing for a while: a surface that moves away or comes
+  // m, by what has been missing for a while, in each direction: a surface that moves away or comes.
+  std::array<double, kDirections> lasting_{};
+  double part_ = 1;  // of the limit and the rate, for each direction
   std::array<LineState, kDirections> shift_{};
   std::array<Joints, kDirections> rates_{};  // rad or m that each joint moves per m
   std::size_t next_ = 0;                     // direction that is measured next

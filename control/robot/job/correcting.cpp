@@ -8,12 +8,6 @@
 
 namespace indurop::robot {
 
-namespace {
-
-constexpr double kTouch = 0.2;  // part of the wanted force from which on the tool is in contact
-
-}  // namespace
-
 void Correcting::skip(const Step& step) noexcept {
   if (step.op == Op::Correct) {
     skipped_ = step.slot >= 0;
@@ -26,12 +20,12 @@ const JobCorrection& Correcting::now() const noexcept {
 
 // While one is on: the text that fits it.
 const char* Correcting::either(const char* correct, const char* press) const noexcept {
-  return now().pressed < 0 ? correct : press;
+  return now().presses() ? press : correct;
 }
 
 StepValues::Flaw Correcting::run(const Step& step, const JobPlaces& places, MotionPort& port, bool& done) noexcept {
   if (step.slot < 0) {
-    if (on() && (now().pressed >= 0) != (step.mid == 1)) {
+    if (on() && now().presses() != (step.mid == 1)) {
       return {either("CORRECT is on; it ends with CORRECT OFF", "PRESS is on; it ends with PRESS OFF")};
     }
     done = end(port);
@@ -44,7 +38,11 @@ StepValues::Flaw Correcting::run(const Step& step, const JobPlaces& places, Moti
   }
   const JobCorrection& correction = book_.corrections[static_cast<std::size_t>(step.slot)];
   const Quat axes = step.index >= 0 ? places.frame(step.index).orientation : Quat::Identity();
-  done = port.begin_correction({axes, correction.by_tool, correction.limit, correction.rate, correction.pressed});
+  CorrectionWay way{axes, correction.by_tool, correction.limit, correction.rate, {}};
+  for (int i = 0; i < correction.directions; ++i) {
+    way.pressed[correction.along[static_cast<std::size_t>(i)]] = true;
+  }
+  done = port.begin_correction(way);
   if (done) {
     now_ = step.slot;
     skipped_ = false;
@@ -89,7 +87,7 @@ StepValues::Flaw Correcting::step(double seconds, const StepValues& values, Sign
   const JobCorrection& correction = now();
   if (correction.beat >= 0) {
     const double beat = signals.read(static_cast<std::size_t>(correction.beat));
-    const bool needed = correction.pressed >= 0 || port.is_moving();
+    const bool needed = correction.presses() || port.is_moving();
     age_ = beat != beat_ || !needed ? 0 : age_ + seconds;
     beat_ = beat;
     if (age_ > correction.age) {
@@ -97,7 +95,7 @@ StepValues::Flaw Correcting::step(double seconds, const StepValues& values, Sign
                      "PRESS has had no new measurement for the time that its AGE allows; check the sensor")};
     }
   }
-  if (correction.pressed >= 0) {
+  if (correction.presses()) {
     return press(values, signals, port);
   }
   std::array<double, 3> shift{};
@@ -110,16 +108,23 @@ StepValues::Flaw Correcting::step(double seconds, const StepValues& values, Sign
 
 StepValues::Flaw Correcting::press(const StepValues& values, Signals& signals, MotionPort& port) const noexcept {
   const JobCorrection& correction = now();
-  std::array<double, 2> force{};  // wanted and measured, N
-  const StepValues::Flaw flaw = values.numbers(correction.formula, force.size(), signals, port, force.data());
+  std::array<double, 6> force{};  // wanted and measured, N, of each direction
+  const auto count = static_cast<std::size_t>(correction.directions);
+  const StepValues::Flaw flaw = values.numbers(correction.formula, 2 * count, signals, port, force.data());
   if (!flaw.ok()) {
     return flaw;
   }
-  if (!(std::abs(force[1]) <= correction.most)) {
+  PressNeeds needs;
+  double squares = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double measured = force[2 * i + 1];
+    needs[correction.along[i]] = press_need(force[2 * i], measured, correction.stiffness[i]);
+    squares += measured * measured;
+  }
+  if (!(std::sqrt(squares) <= correction.most)) {
     return {"the measured force is more than the MOST of PRESS: what is in the way, or is STIFFNESS too low?"};
   }
-  const bool touches = std::copysign(force[1], force[0] * force[1]) >= kTouch * std::abs(force[0]);
-  port.press({(force[0] - force[1]) / correction.stiffness, touches});
+  port.press(needs);
   return {};
 }
 

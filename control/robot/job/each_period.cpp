@@ -3,9 +3,11 @@
 
 #include <indurop/robot/commands.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace indurop::robot {
 
@@ -28,7 +30,7 @@ void EachPeriodReader::correct() {
 }
 
 // Parses "PRESS 20, -WRIST::fz ALONG Z TOOL MOST 60 N STIFFNESS 40 N/mm LIMIT 5 mm RATE 10 mm/s AGE WRIST::count 50
-// ms", "PRESS OFF"
+// ms", "PRESS 20, -WRIST::fz ALONG Z, 5, WRIST::fx ALONG X TOOL MOST 60 N STIFFNESS 40, 10 N/mm LIMIT ...", "PRESS OFF"
 void EachPeriodReader::press() {
   static constexpr const char* kExample =
       "; PRESS 20, -WRIST::fz ALONG Z TOOL MOST 60 N STIFFNESS 40 N/mm LIMIT 5 mm RATE 10 mm/s";
@@ -37,30 +39,80 @@ void EachPeriodReader::press() {
     return;
   }
   JobCorrection press;
-  const JobToken start = line_.peek();
-  press.formula = draft_.keep(checked(
-      expressions_.list(2, "the force in N and the measured one, or OFF", "20, -WRIST::fz ALONG Z TOOL"), start));
-  if (axis(press)) {
-    axes(press);
+  std::vector<Formula> forces;
+  while (direction(press, forces) && line_.accept(",")) {
   }
-  if (amount(press.most, {"MOST", "N", 1e5, 1, kExample}) &&
-      amount(press.stiffness, {"STIFFNESS", "N/mm", 1e5, 1000, kExample}) && limits(press, kExample)) {
+  press.formula = draft_.keep(std::move(forces));
+  axes(press);
+  if (amount(press.most, {"MOST", "N", 1e5, 1, kExample}) && stiffness(press, kExample) && limits(press, kExample)) {
     age(press);
   }
   keep(press);
 }
 
-bool EachPeriodReader::axis(JobCorrection& correction) {
+// Parses "20, -WRIST::fz ALONG Z".
+bool EachPeriodReader::direction(JobCorrection& press, std::vector<Formula>& forces) {
+  const JobToken start = line_.peek();
+  if (press.directions == static_cast<int>(press.along.size())) {
+    line_.error(start, "a tool presses in three directions at most, ALONG X, Y and Z");
+    return false;
+  }
+  for (Formula& each : checked(
+           expressions_.list(2, "the force in N and the measured one, or OFF", "20, -WRIST::fz ALONG Z TOOL"), start)) {
+    forces.push_back(std::move(each));
+  }
+  return axis(press);
+}
+
+bool EachPeriodReader::axis(JobCorrection& press) {
   static constexpr std::array<const char*, 3> kNames{"X", "Y", "Z"};
   const bool along = !line_.failed() && line_.accept("ALONG");
-  for (std::size_t i = 0; along && i < kNames.size() && correction.pressed < 0; ++i) {
-    correction.pressed = line_.accept(kNames[i]) ? static_cast<int>(i) : -1;
+  const JobToken name = line_.peek();
+  std::size_t found = 0;
+  while (found < kNames.size() && !(along && line_.accept(kNames[found]))) {
+    ++found;
   }
-  if (!line_.failed() && correction.pressed < 0) {
-    line_.error(line_.peek(), "expected ALONG and X, Y or Z, found " + JobLine::shown(line_.peek()) +
-                                  "; the tool presses along this axis");
+  if (line_.failed()) {
+    return false;
   }
-  return !line_.failed();
+  if (found == kNames.size()) {
+    line_.error(name,
+                "expected ALONG and X, Y or Z, found " + JobLine::shown(name) + "; the tool presses along this axis");
+    return false;
+  }
+  const auto begin = press.along.begin();
+  if (std::find(begin, begin + press.directions, found) != begin + press.directions) {
+    line_.error(name, std::string("the tool presses along ") + kNames[found] +
+                          " already; each direction has an axis of its own");
+    return false;
+  }
+  press.along[static_cast<std::size_t>(press.directions++)] = found;
+  return true;
+}
+
+// Parses "STIFFNESS 40 N/mm" for all directions, "STIFFNESS 40, 10 N/mm" for each of them.
+bool EachPeriodReader::stiffness(JobCorrection& press, const char* example) {
+  const Amount wanted{"STIFFNESS", "N/mm", 1e5, 1000, example};
+  if (!word(wanted)) {
+    return false;
+  }
+  const JobToken start = line_.peek();
+  int count = 0;
+  do {
+    double ignored = 0;
+    if (!number(count < press.directions ? press.stiffness[static_cast<std::size_t>(count)] : ignored, wanted)) {
+      return false;
+    }
+    ++count;
+  } while (line_.accept(","));
+  if (count == 1) {
+    press.stiffness.fill(press.stiffness[0]);
+  } else if (count != press.directions) {
+    line_.error(start, "STIFFNESS is one number for all directions or one for each of the " +
+                           std::to_string(press.directions) + ", found " + std::to_string(count));
+    return false;
+  }
+  return unit(wanted);
 }
 
 void EachPeriodReader::axes(JobCorrection& correction) {
@@ -137,24 +189,32 @@ std::vector<Formula> EachPeriodReader::checked(std::vector<Formula> formulas, co
 }
 
 bool EachPeriodReader::amount(double& to, const Amount& wanted) {
-  if (line_.failed()) {
-    return false;
-  }
-  if (!line_.accept(wanted.word)) {
+  return word(wanted) && number(to, wanted) && unit(wanted);
+}
+
+bool EachPeriodReader::word(const Amount& wanted) {
+  if (!line_.failed() && !line_.accept(wanted.word)) {
     line_.error(line_.peek(), std::string("expected ") + wanted.word + " and a number of " + wanted.unit + ", found " +
                                   JobLine::shown(line_.peek()) + wanted.example);
-    return false;
   }
-  const JobToken number = line_.peek();
+  return !line_.failed();
+}
+
+bool EachPeriodReader::number(double& to, const Amount& wanted) {
+  const JobToken at = line_.peek();
   if (!line_.numbers(1, &to, wanted.unit)) {
     return false;
   }
   if (!(to > 0 && to <= wanted.most)) {
-    line_.error(number, std::string(wanted.word) + " is more than 0 and at most " +
-                            std::to_string(static_cast<int>(wanted.most)) + " " + wanted.unit);
+    line_.error(at, std::string(wanted.word) + " is more than 0 and at most " +
+                        std::to_string(static_cast<int>(wanted.most)) + " " + wanted.unit);
     return false;
   }
   to *= wanted.to_si;
+  return true;
+}
+
+bool EachPeriodReader::unit(const Amount& wanted) {
   if (!line_.accept_unit(wanted.unit)) {
     line_.error(line_.peek(), std::string("expected ") + wanted.unit + ", found " + JobLine::shown(line_.peek()));
   }

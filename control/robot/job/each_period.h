@@ -30,8 +30,13 @@ class EachPeriodReader {
     const char* example = nullptr;
   };
   bool amount(double& to, const Amount& wanted);
+  bool word(const Amount& wanted);
+  bool number(double& to, const Amount& wanted);
+  bool unit(const Amount& wanted);
   bool limits(JobCorrection& correction, const char* example);
-  bool axis(JobCorrection& correction);
+  bool direction(JobCorrection& press, std::vector<Formula>& forces);
+  bool axis(JobCorrection& press);
+  bool stiffness(JobCorrection& press, const char* example);
   void axes(JobCorrection& correction);
   void keep(const JobCorrection& correction);
   void age(JobCorrection& correction);

@@ -104,15 +104,19 @@ struct JobQuestion {
 
 // A CORRECT or PRESS statement: how motions are shifted from here on.
 struct JobCorrection {
-  int formula = -1;      // evaluated in each period: first one of x, y and z in mm; PRESS: wanted and measured force, N
+  int formula = -1;      // evaluated in each period: first one of x, y and z in mm; PRESS: wanted and measured force of
+                         // each direction, N
   bool by_tool = false;  // along the axes of the tool, instead of those of a frame
-  double limit = 0;      // m, of each of them
-  double rate = 0;       // m/s, of each of them
+  double limit = 0;      // m, of each of them; PRESS: of all directions together
+  double rate = 0;       // m/s, likewise
   int beat = -1;         // signal that changes with each measurement; -1: none
   double age = 0;        // s after which it has to have changed
-  int pressed = -1;      // PRESS: along which axis, 0: x; -1: it is a CORRECT
-  double most = 0;       // N that are measured at most
-  double stiffness = 0;  // N/m
+  int directions = 0;    // PRESS: in how many the tool presses; 0: it is a CORRECT
+  double most = 0;       // N that are measured at most, of all directions together
+  // Of each direction: its axis, 0: x; and the stiffness of the contact in N/m.
+  std::array<std::size_t, 3> along{};
+  std::array<double, 3> stiffness{};
+  [[nodiscard]] bool presses() const noexcept { return directions > 0; }
 };
 
 // A PUSH statement: an axis pushes until a condition holds, or all of its torque has been there for a time.

@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <array>
+
+#include "control/robot/job/press_need.h"
 #include "control/robot/job/push_way.h"
 #include "control/robot/kinematics/errors.h"
 #include "control/robot/path/segment.h"
@@ -10,19 +13,15 @@
 namespace indurop::robot {
 
 // How motions are shifted: along which axes, and the limits of the shift along each of them. A tool that presses is
-// shifted along one of them only, also while the path is at rest.
+// shifted along some of them only, also while the path is at rest; the limits are those of the whole shift.
 struct CorrectionWay {
   Quat axes = Quat::Identity();  // in the base
   bool by_tool = false;          // along the axes of the tool instead
   double limit = 0;              // m
   double rate = 0;               // m/s
-  int pressed = -1;              // axis along which the tool presses, 0: x; -1: it does not
-};
-
-// How far a tool is from where it would press as it should.
-struct PressNeed {
-  double missing = 0;    // m, by the stiffness of the contact
-  bool touches = false;  // it presses already
+  // Whether the tool presses along x, y and z; along none of them: it does not press.
+  std::array<bool, 3> pressed{};
+  [[nodiscard]] int directions() const noexcept { return pressed[0] + pressed[1] + pressed[2]; }
 };
 
 // A frame that moves with a belt, along x of `origin`, or with a table, about z of it.
@@ -56,7 +55,7 @@ class MotionPort {
   // How far to shift from now on, m along the axes; what exceeds the limit is cut off.
   virtual void correct(const Vec3&) noexcept {}
   // What is missing in this period to a tool that presses. If it is not called, the tool comes to rest.
-  virtual void press(const PressNeed&) noexcept {}
+  virtual void press(const PressNeeds&) noexcept {}
   // Returns whether no set point changes: all motions have ended, and a tool that presses rests.
   [[nodiscard]] virtual bool rests() const noexcept { return settled(); }
   // Lets an axis push from now on; all motions must have ended. settled() is false until end_push() has brought it to
