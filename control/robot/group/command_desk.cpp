@@ -9,6 +9,7 @@ void CommandDesk::serve(const Inputs& in, const ModeGuard& mode) noexcept {
   robot_.axes.set_profiles(in.profiles);  // those of waiting commands are still in it
   robot_.singles.set_profiles(in.profiles);
   services_.retry();
+  press_.sense();
   for (int ticket = table.take(); ticket != CommandTable::kNone; ticket = table.take()) {
     const int axis = table.command(ticket).axis;
     if (axis == 0) {
@@ -21,6 +22,7 @@ void CommandDesk::serve(const Inputs& in, const ModeGuard& mode) noexcept {
       table.end(ticket, ErrorCode::Value);
     }
   }
+  press_.step();
 }
 
 void CommandDesk::take(int ticket, const CamTables& cams) noexcept {
@@ -31,6 +33,7 @@ void CommandDesk::take(int ticket, const CamTables& cams) noexcept {
   if (is_motion(service)) {
     if (service == Service::Halt) {
       others_.sync.end_at_rest();
+      press_.end_at_rest();
     }
     queue_.take(ticket);
     return;
@@ -62,6 +65,9 @@ void CommandDesk::take(int ticket, const CamTables& cams) noexcept {
       break;
     case Service::FollowMaster:
       others_.sync.take(ticket);
+      break;
+    case Service::Press:
+      press_.take(ticket);
       break;
     case Service::SelectCam:
       static_cast<void>(robot_.singles.set_cam(command.option - 1, cams, command.job == 1));

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include "control/robot/group/command_press.h"
 #include "control/robot/group/conveyor_tracking.h"
 #include "control/robot/group/master_sync.h"
 #include "control/robot/group/motion_queue.h"
@@ -20,9 +21,14 @@ class CommandDesk {
     ConveyorTracking& conveyor;
     MasterSync& sync;
     Stops& stops;
+    JobMotions& motions;
   };
-  CommandDesk(Robot& robot, ServiceDesk& services, MotionQueue& queue, const Others& others) noexcept
-      : robot_(robot), services_(services), queue_(queue), others_(others) {}
+  CommandDesk(Robot& robot, GroupPort& group, ServiceDesk& services, MotionQueue& queue, const Others& others) noexcept
+      : robot_(robot),
+        services_(services),
+        queue_(queue),
+        others_(others),
+        press_(robot, group, others.motions, queue, others.conveyor) {}
 
   // Takes all new commands. Real-time safe.
   void serve(const Inputs& in, const ModeGuard& mode) noexcept;
@@ -34,6 +40,7 @@ class CommandDesk {
   ServiceDesk& services_;
   MotionQueue& queue_;
   Others others_;
+  CommandPress press_;
 };
 
 }  // namespace indurop::robot

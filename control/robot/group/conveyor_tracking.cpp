@@ -47,7 +47,7 @@ ConveyorTracking::ConveyorTracking(Robot& robot, GroupPort& group, Plans& plans)
 }
 
 Joints ConveyorTracking::planned_end() const noexcept {
-  return robot_.follower.idle() && !on() ? robot_.commanded() : robot_.follower.end();
+  return robot_.follower.idle() && !on() && !robot_.states.pressing() ? robot_.commanded() : robot_.follower.end();
 }
 
 LineLimits ConveyorTracking::most_of(const Tracking::Carrier& carrier) const noexcept {
@@ -106,6 +106,9 @@ ErrorCode ConveyorTracking::track(const Command& command, bool turns) noexcept {
       !std::all_of(command.aux.begin(), command.aux.begin() + 6, finite) || command.option < 1 ||
       command.option > static_cast<int>(kBelts)) {
     return ErrorCode::Value;
+  }
+  if (robot_.states.pressing()) {
+    return ErrorCode::State;
   }
   return track({turns, command.option - 1, pose_of(command.to), pose_of(command.aux)});
 }

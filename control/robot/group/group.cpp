@@ -27,7 +27,7 @@ Group::Group(GroupParts parts)
       service_(robot_, *this, plans_, services_),
       answers_(robot_.job),
       overrides_(robot_, *this, conveyor_, correction_),
-      commands_(robot_, service_, queue_, {conveyor_, overrides_.sync(), stops_}),
+      commands_(robot_, *this, service_, queue_, {conveyor_, overrides_.sync(), stops_, job_motions_}),
       reloading_(robot_, *this, plans_, gate_.clear(), torques_),
       breakdown_(robot_, *this),
       motion_report_(robot_, conveyor_) {

@@ -221,7 +221,7 @@ void Group::end_motions() noexcept {
     if (resuming_.way_back() == Resuming::Return::Back || resuming_.may_continue(robot_.follower.kept_path())) {
       resuming_.end_way_back();
     }
-  } else if (!robot_.job.running() && queue_.empty() && !conveyor_.on()) {
+  } else if (!robot_.job.running() && queue_.empty() && !conveyor_.on() && !robot_.states.pressing()) {
     come_to_standby();
     finish_service(robot_.states.error());
   }

@@ -18,6 +18,13 @@ bool is_known_ahead(const Command& command) noexcept {
   return command.coords != CoordSystem::Axes || service == Service::DirectAbsolute || is_free(service);
 }
 
+// Returns whether a motion is possible while the tool presses. The set points of joint motions are no lines that could
+// be shifted, and a free motion is clear only where it was searched for.
+bool may_follow(Service motion, GroupStates::Press press) noexcept {
+  const bool shifts = !is_direct(motion) && !is_free(motion);
+  return press == GroupStates::Press::Off || motion == Service::Halt || (press == GroupStates::Press::On && shifts);
+}
+
 }  // namespace
 
 void MotionQueue::take(int ticket) noexcept {
@@ -28,6 +35,9 @@ void MotionQueue::take(int ticket) noexcept {
   }
   if (code == ErrorCode::Ok && !is_sane(command)) {
     code = ErrorCode::Value;
+  }
+  if (code == ErrorCode::Ok && !may_follow(group_service_of(command), robot_.states.press())) {
+    code = ErrorCode::State;
   }
   code = code == ErrorCode::Ok ? check_product(command) : code;
   if (code != ErrorCode::Ok) {
@@ -159,7 +169,7 @@ void MotionQueue::halt(int ticket) noexcept {
   robot_.table.active(ticket);
   robot_.follower.stop();
   conveyor_.leave(false);
-  if (robot_.follower.idle() && !conveyor_.on()) {
+  if (robot_.follower.idle() && !conveyor_.on() && !robot_.states.pressing()) {
     end_first(1, ErrorCode::Ok);
   }
 }

@@ -23,8 +23,8 @@ bool Services::comes_to_rest() const noexcept {
 
 ErrorCode Services::begin(Service service, const ServiceRequest& request) noexcept {
   const bool ends_it = service == Service::Stop || service == Service::JobStop || service == Service::GroupDisable;
-  if ((parts_.conveyor.on() || parts_.guiding.on()) && !ends_it && service != Service::None &&
-      service != Service::GroupReset) {
+  const bool off_path = parts_.conveyor.on() || parts_.guiding.on() || robot_.states.pressing();
+  if (off_path && !ends_it && service != Service::None && service != Service::GroupReset) {
     return ErrorCode::State;
   }
   switch (service) {

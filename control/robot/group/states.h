@@ -10,6 +10,9 @@ namespace indurop::robot {
 
 class GroupStates {
  public:
+  // A command lets the tool press; it begins or ends, and accepts no motions.
+  enum class Press { Off, On, Changing };
+
   [[nodiscard]] GroupState state() const noexcept { return state_; }
   [[nodiscard]] bool is(GroupState state) const noexcept { return state_ == state; }
   [[nodiscard]] bool moving() const noexcept { return state_ == GroupState::Moving; }
@@ -78,6 +81,10 @@ class GroupStates {
   // The error that is reported before the first service.
   void report_first(ErrorCode code) noexcept { error_ = code; }
 
+  [[nodiscard]] bool pressing() const noexcept { return press_ != Press::Off; }
+  [[nodiscard]] Press press() const noexcept { return press_; }
+  void set_press(Press press) noexcept { press_ = press; }
+
   // The emergency stop input.
   [[nodiscard]] bool emergency() const noexcept { return emergency_; }
   void set_emergency(bool emergency) noexcept { emergency_ = emergency; }
@@ -91,6 +98,7 @@ class GroupStates {
   bool on_path_ = true;
   bool by_job_ = false;
   bool emergency_ = false;
+  Press press_ = Press::Off;
 };
 
 }  // namespace indurop::robot

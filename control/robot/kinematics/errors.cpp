@@ -80,6 +80,8 @@ const char* to_string(ErrorCode code) noexcept {
       return "no way around what is in the way was found in time; add a point between, or give it longer, WITHIN 20 s";
     case ErrorCode::OtherRobot:
       return "another robot came into the way, or both wait for each other";
+    case ErrorCode::Force:
+      return "the tool presses with more force than is permitted, or its sensor is silent";
   }
   return "unknown error";
 }

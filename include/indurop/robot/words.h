@@ -60,7 +60,12 @@ enum class Service : std::int32_t {
   FreeAbsolute,  // around obstacles; `aux`: seed of the search, and s that it may take at most, 0: 10
   // The path follows single axis `option`, or belt `job`: to[0] / to[1] mm for each mm or degree of it; to[2]: mm that
   // it may be behind or ahead, 0: any distance.
-  FollowMaster
+  FollowMaster,
+  // The tool presses as long as `execute` is 1. `to`: N along x, y and z, N that are measured, and the count of the
+  // measurements; each update has new ones, at least every 0.1 s. `aux`: N/mm of the contact along each axis, 0: the
+  // tool does not press along it; N at most; mm at most; s after which the count has to have changed, 0: any time.
+  // `velocity`: mm/s at most. `option` 1: along the axes of the tool.
+  Press
 };
 
 // Services of one axis.
@@ -137,7 +142,8 @@ enum class ErrorCode : std::uint32_t {
   Planner,       // a thread of the robot task crashed; the task ends once the drives have no power
   Wave,          // the tool points along the path that it is to weave across
   NoWay,         // the search for a free motion found no way, or not in time
-  OtherRobot     // another robot came into the way, or both wait for each other
+  OtherRobot,    // another robot came into the way, or both wait for each other
+  Force          // of a tool that presses: more is measured than is permitted, or nothing new
 };
 
 // The operating mode of the robot (ISO 10218-1), as selected by a key switch.

@@ -219,6 +219,10 @@ TEST_F(RobotNode, Every_block_of_the_group) {
   run_blocks("group_blocks");
 }
 
+TEST_F(RobotNode, Every_use_of_the_block_that_presses) {
+  run_blocks("press_blocks");
+}
+
 TEST_F(RobotNode, Every_block_of_products_that_move) {
   run_blocks("track_blocks");
 }

@@ -42,6 +42,7 @@ const REMEDIES: Record<string, string> = {
   ROBOT_ERR_WAVE: "Turn the tool away from the direction of the path, or do not weave there",
   ROBOT_ERR_NO_WAY: "Remove what is in the way, or allow the search more time (WITHIN)",
   ROBOT_ERR_OTHER_ROBOT: "Move the other robot out of the way",
+  ROBOT_ERR_FORCE: "Find what the tool presses against, and check the force sensor",
 };
 
 // The step after the cause is gone; empty: none.
