@@ -55,6 +55,10 @@ Tip arm_tip(const std::array<double, 6>& degrees) {
   frame.move(140, 0, 0);
   frame.turn(y, 90);
   frame.move(0, 0, 120);  // TOOL gripper
-  return {frame.origin[0], frame.origin[1], frame.origin[2], std::atan2(frame.axes[0][1], frame.axes[0][0]) * kDegrees,
-          std::acos(std::fmin(1, -frame.axes[2][2])) * kDegrees};
+  return {frame.origin[0],
+          frame.origin[1],
+          frame.origin[2],
+          std::atan2(frame.axes[0][1], frame.axes[0][0]) * kDegrees,
+          std::acos(std::fmin(1, -frame.axes[2][2])) * kDegrees,
+          frame.axes};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arm behind its simulated drives: masses, gravity, and a visitor who pushes against it.
+// The arm behind its simulated drives: masses, gravity, a visitor who pushes against it, and the sheet under its tool.
 #include <indurop/indurop.h>
 #include <indurop/robot/arm_physics.h>
 
@@ -15,6 +15,8 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "sheet.h"
 
 namespace robot = indurop::robot;
 
@@ -37,6 +39,7 @@ std::unique_ptr<robot::ArmPhysics> arm;
 std::array<robot::AxisPhysics, kAxes> axes;
 Six rated{};
 std::vector<Visit> visits;
+Sheet sheet;
 double period = 0;
 std::int64_t began = -1;
 
@@ -94,6 +97,7 @@ void start() {
   }
   read_held();
   read_visits();
+  sheet = Sheet(irp::property("sheet", ""));
   period = std::chrono::duration<double>(irp::period()).count();
 }
 
@@ -110,6 +114,14 @@ void run() {
   Six wrench = CONTACT::hand;
   for (double& one : wrench) {
     one *= 1 + kTremor * std::sin(2 * std::numbers::pi * kTremorHz * now);
+  }
+  Six degrees{};
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    degrees[i] = axes[i].position * 180 / std::numbers::pi;
+  }
+  const Six from_sheet = sheet.push(arm_tip(degrees), period);
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    wrench[i] += from_sheet[i];
   }
   Six pushed{};
   arm->push_end(axes, wrench, pushed);
@@ -129,6 +141,8 @@ void run() {
     CONTACT::load[i] = load[i];
     CONTACT::pushed[i] = pushed[i];
   }
+  CONTACT::force = sheet.measured();
+  CONTACT::measured = CONTACT::measured + 1;
 }
 
 INDUROP_MODULE(run = &::run, start = &::start, name = "physics", description = "the arm behind its drives")

@@ -23,12 +23,12 @@ class Cell:
         self.options = options
         options.work.mkdir(parents=True, exist_ok=True)
 
-    def run(self, name, seconds, change=()):
-        """The rows of a run: values of variables by name, and `t`, s since the start."""
+    def run(self, name, seconds, change=(), config="module.xml"):
+        """The rows of a run of this configuration: values of variables by name, and `t`, s since the start."""
         folder = self.options.work / name
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
-        for file in ("module.xml", "ioconfig.xml", "arm.urdf", "swing.job"):
+        for file in (config, "ioconfig.xml", "arm.urdf", "swing.job", "press.job"):
             text = (self.options.example / file).read_text()
             text = text.replace("./libiodispat.so", self.options.io_module)
             text = text.replace("<filename>./", f"<filename>{self.options.example}/")
@@ -36,7 +36,7 @@ class Cell:
                 text = text.replace(old, new)
             (folder / file).write_text(text)
         indurop = self.options.bin / "indurop"
-        subprocess.run([indurop, "run", "module.xml", "--sim", "--until", f"{seconds}s", "--record", "run.mcap", "-q",
+        subprocess.run([indurop, "run", config, "--sim", "--until", f"{seconds}s", "--record", "run.mcap", "-q",
                         "--node", f"contact-{os.getpid()}"], check=True, cwd=folder, stdout=subprocess.DEVNULL)
         subprocess.run([indurop, "recording", "export", "run.mcap", "--csv", "run.csv", "-q"], check=True, cwd=folder,
                        stdout=subprocess.DEVNULL)
