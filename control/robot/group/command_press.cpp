@@ -34,7 +34,7 @@ bool is_press_limit(double value, double most) noexcept {
 }  // namespace
 
 ErrorCode CommandPress::check(const Command& command) const noexcept {
-  const auto begin = command.aux.begin();
+  const double* const begin = command.aux.data();
   const bool stiff = std::all_of(begin, begin + kAtMost, [](double k) { return k >= 0 && k <= kPressStiffness; }) &&
                      std::any_of(begin, begin + kAtMost, [](double k) { return k > 0; });
   const bool axes =

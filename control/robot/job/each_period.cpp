@@ -80,7 +80,7 @@ bool EachPeriodReader::axis(JobCorrection& press) {
                 "expected ALONG and X, Y or Z, found " + JobLine::shown(name) + "; the tool presses along this axis");
     return false;
   }
-  const auto begin = press.along.begin();
+  const std::size_t* const begin = press.along.data();
   if (std::find(begin, begin + press.directions, found) != begin + press.directions) {
     line_.error(name, std::string("the tool presses along ") + kNames[found] +
                           " already; each direction has an axis of its own");
