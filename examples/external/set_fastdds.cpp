@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sets the target of the axis, with Fast DDS and the types that fastddsgen made of station.idl: nothing of InduRoP.
 //   set_fastdds MILLIMETRES [DOMAIN]    exit code 0: the axis said that this is its target now; 3: it has another one
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -15,13 +13,7 @@
 #include <cstdlib>
 #include <thread>
 
-#if __has_include("stationPubSubTypes.hpp")  // of fastddsgen 4, for Fast DDS 3
-#include "stationPubSubTypes.hpp"
-constexpr auto kOk = eprosima::fastdds::dds::RETCODE_OK;
-#else
-#include "stationPubSubTypes.h"
-constexpr auto kOk = ReturnCode_t::RETCODE_OK;
-#endif
+#include "fastdds_participant.h"
 
 namespace {
 
@@ -105,8 +97,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const auto domain = static_cast<std::uint32_t>(argc > 2 ? std::strtoul(argv[2], nullptr, 10) : 0);
-  auto* const participant =
-      fast::DomainParticipantFactory::get_instance()->create_participant(domain, fast::PARTICIPANT_QOS_DEFAULT);
+  auto* const participant = join(domain);
   if (participant == nullptr) {
     std::fprintf(stderr, "cannot join DDS domain %u\n", domain);
     return 1;

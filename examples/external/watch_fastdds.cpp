@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prints the state of the axis, with Fast DDS and the types that fastddsgen made of station.idl: nothing of InduRoP.
 //   watch_fastdds [DOMAIN [COUNT]]    default: domain 0, until Ctrl-C
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
@@ -12,13 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#if __has_include("stationPubSubTypes.hpp")  // of fastddsgen 4, for Fast DDS 3
-#include "stationPubSubTypes.hpp"
-constexpr auto kOk = eprosima::fastdds::dds::RETCODE_OK;
-#else
-#include "stationPubSubTypes.h"
-constexpr auto kOk = ReturnCode_t::RETCODE_OK;
-#endif
+#include "fastdds_participant.h"
 
 namespace {
 
@@ -39,8 +31,7 @@ void print(const station::State& state) {
 int main(int argc, char** argv) {
   const auto domain = static_cast<std::uint32_t>(argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 0);
   long left = argc > 2 ? std::strtol(argv[2], nullptr, 10) : -1;
-  auto* const participant =
-      fast::DomainParticipantFactory::get_instance()->create_participant(domain, fast::PARTICIPANT_QOS_DEFAULT);
+  auto* const participant = join(domain);
   if (participant == nullptr) {
     std::fprintf(stderr, "cannot join DDS domain %u\n", domain);
     return 1;

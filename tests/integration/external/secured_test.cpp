@@ -55,10 +55,10 @@ class Secured : public Live {
     }
     return indurop(words);
   }
-  Program& example(const std::vector<std::string>& words, const std::string& setting) {
+  Program& example(const std::vector<std::string>& words, const std::vector<std::string>& settings) {
     std::vector<std::string> command = words;
     command.front() = std::string(EXAMPLE_FOLDER) + "/" + command.front();
-    programs_.push_back(std::make_unique<Program>(command, Environment{{setting}, static_cast<uid_t>(-1), {}}));
+    programs_.push_back(std::make_unique<Program>(command, Environment{settings, static_cast<uid_t>(-1), {}}));
     return *programs_.back();
   }
   // The file of examples/external with a folder of keys in it.
@@ -73,10 +73,12 @@ class Secured : public Live {
     return write(name, text);
   }
   Program& cyclone(const std::vector<std::string>& words, const std::string& whose) {
-    return example(words, "CYCLONEDDS_URI=file://" + filled_in("keys_cyclone.xml", whose, "${KEYS}"));
+    return example(words, {"CYCLONEDDS_URI=file://" + filled_in("keys_cyclone.xml", whose, "${KEYS}")});
   }
   Program& fastdds(const std::vector<std::string>& words, const std::string& whose) {
-    return example(words, "FASTRTPS_DEFAULT_PROFILES_FILE=" + filled_in("keys_fastdds.xml", whose, "KEYS"));
+    const std::string profiles = filled_in("keys_fastdds.xml", whose, "KEYS");
+    return example(words, {"FASTRTPS_DEFAULT_PROFILES_FILE=" + profiles,   // Fast DDS 2
+                           "FASTDDS_DEFAULT_PROFILES_FILE=" + profiles});  // Fast DDS 3
   }
   // A participant of this process that writes 666 to station::target whatever it may.
   bool write_target(const dds::Security& security) {
