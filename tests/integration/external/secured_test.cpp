@@ -201,6 +201,9 @@ TEST_F(Secured, Changed_lists_count_after_a_renewal) {
 #ifdef WITH_FASTDDS
 // Fast DDS is let in and then hears nothing, for good, about every third time (docs/adr/0016): it starts again then.
 TEST_F(Secured, A_FastDDS_program_reads_and_sets_what_its_keys_let_it) {
+#ifdef FASTDDS_3
+  GTEST_SKIP() << "Fast DDS 3 waits for a message that Cyclone DDS 0.10 does not send (docs/adr/0016)";
+#endif
   start_plant();
   const auto succeeds = [&](const std::vector<std::string>& words) {
     constexpr int kStarts = 8;
