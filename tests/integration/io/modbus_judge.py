@@ -15,7 +15,14 @@ import time
 from pymodbus.client import ModbusTcpClient
 from pymodbus.datastore import ModbusSequentialDataBlock, ModbusServerContext, ModbusSlaveContext
 from pymodbus.server import StartTcpServer
-from pymodbus.transaction import ModbusRtuFramer, ModbusSocketFramer
+
+try:
+    from pymodbus.framer import FramerType  # 3.6 and later: Debian 13
+    RTU, SOCKET = FramerType.RTU, FramerType.SOCKET
+    WRITTEN = "values"  # of readwrite_registers
+except ImportError:
+    from pymodbus.transaction import ModbusRtuFramer as RTU, ModbusSocketFramer as SOCKET
+    WRITTEN = "write_registers"
 
 HOLDING = 3  # function code by which the data store knows its tables
 PLACES = 200
@@ -28,7 +35,7 @@ def say(text):
 def serve(framing, address, port):
     block = ModbusSequentialDataBlock(1, [0] * PLACES)
     store = ModbusSlaveContext(di=block, co=block, hr=ModbusSequentialDataBlock(1, [0] * PLACES), ir=block)
-    framer = ModbusRtuFramer if framing == "rtu" else ModbusSocketFramer
+    framer = RTU if framing == "rtu" else SOCKET
     threading.Thread(target=StartTcpServer, daemon=True, kwargs={
         "context": ModbusServerContext(slaves=store, single=True), "framer": framer, "address": (address, port)}).start()
     while True:
@@ -62,7 +69,7 @@ def ask(address, port):
     for line in sys.stdin:
         word, *rest = line.split()
         if word == "read":
-            say(answer(reads[rest[0]](int(rest[1]), int(rest[2]), slave=1), int(rest[2])))
+            say(answer(reads[rest[0]](int(rest[1]), count=int(rest[2]), slave=1), int(rest[2])))
         elif word == "write":
             values = [int(value) for value in rest[2:]]
             if rest[0] == "coil":
@@ -78,7 +85,7 @@ def ask(address, port):
         elif word == "both":
             read, count, write, *values = [int(value) for value in rest]
             say(answer(client.readwrite_registers(read_address=read, read_count=count, write_address=write,
-                                                  write_registers=values, slave=1), count))
+                                                  slave=1, **{WRITTEN: values}), count))
         elif word == "raw":
             with socket.create_connection((address, port), 5) as connection:
                 connection.sendall(bytes.fromhex(rest[0]))
