@@ -23,7 +23,8 @@ Description described(const std::string& xml) {
   return std::move(read.description);
 }
 
-const Variable& variable(const Description& description, const std::string& name) {
+// Not a string: GCC 14 would believe that the reference is to it.
+const Variable& variable(const Description& description, const char* name) {
   return description.variables.at(description.by_name.at(name));
 }
 
