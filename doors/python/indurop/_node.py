@@ -59,7 +59,7 @@ class Variable(Described):
         self._reading = ffi.new("reading*", (self._node._handle, self._id, self._buffer, self.size))
         self._array: Any = None
         self._record: Any = None
-        code = self.layout.code
+        code: Any = self.layout.code  # a newer mypy wants one of the letters that cast() knows, not any str
         self._number = memoryview(self._bytes).cast(code) if code is not None and code != "c" else None
 
     def read(self) -> memoryview:
