@@ -396,12 +396,15 @@ def openssl(setting, *words):
     subprocess.run(["openssl", *words], cwd=setting.folder, check=True, capture_output=True)
 
 
-def make_certificate(setting, name, days=10, authority=None):
-    """NAME.key and NAME.pem, self-signed or signed by an authority."""
+def make_certificate(setting, name, days=10, authority=None, signs=False):
+    """NAME.key and NAME.pem, self-signed or signed by an authority. signs: it is an authority."""
     openssl(setting, "req", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-keyout", f"{name}.key",
             "-out", f"{name}.csr", "-subj", f"/CN={name}")
     signer = ["-CA", f"{authority}.pem", "-CAkey", f"{authority}.key", "-CAcreateserial"] if authority else [
         "-signkey", f"{name}.key"]
+    if signs:
+        (setting.folder / "signs.cnf").write_text("basicConstraints=critical,CA:TRUE\n")
+        signer += ["-extfile", "signs.cnf"]
     openssl(setting, "x509", "-req", "-in", f"{name}.csr", "-out", f"{name}.pem", "-days", str(days), *signer)
 
 
@@ -421,9 +424,9 @@ def ask_tls(setting, port, path, certificate=None, token=None):
 
 def test_tls_and_client_certificates(setting):
     for name in ("server", "ca", "stranger"):
-        make_certificate(setting, name)
+        make_certificate(setting, name, signs=name == "ca")
     make_certificate(setting, "deployer", authority="ca")
-    make_certificate(setting, "late", days=-1, authority="ca")
+    make_certificate(setting, "late", days=0, authority="ca")  # ends in the second in which it begins
     server = setting.start_server("--write", "--bind", "0.0.0.0", "--cert", setting.folder / "server.pem", "--key",
                                   setting.folder / "server.key", "--client-ca", setting.folder / "ca.pem",
                                   "--token-file", setting.tokens)
@@ -446,7 +449,7 @@ def test_tls_and_client_certificates(setting):
 
 
 def test_clients_turn_away_an_expired_certificate(setting):
-    make_certificate(setting, "server", days=-1)
+    make_certificate(setting, "server", days=0)
     server = setting.start_server("--bind", "0.0.0.0", "--cert", setting.folder / "server.pem", "--key",
                                   setting.folder / "server.key", "--token-file", setting.tokens)
     for _ in range(3):  # it is still there for the next one
