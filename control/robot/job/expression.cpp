@@ -308,12 +308,12 @@ Formula ExpressionReader::function(int depth) {
   const JobToken name = line_.take();
   line_.take();
   for (const PlaceFunction& each : kPlaceFunctions) {
-    if (same_word(each.name, name.text)) {
+    if (line_.is_word(name, each.name)) {
       return coordinate(each.which);
     }
   }
   const auto* const found = std::find_if(kFunctions.begin(), kFunctions.end(),
-                                         [&](const Function& each) { return same_word(each.name, name.text); });
+                                         [&](const Function& each) { return line_.is_word(name, each.name); });
   if (found == kFunctions.end()) {
     std::string names;
     for (const Function& each : kFunctions) {

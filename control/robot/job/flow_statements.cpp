@@ -193,7 +193,8 @@ void FlowReader::arm() {
   const Formula& condition = draft_.book().formulas.back();
   const bool of_job = condition.reads().variables || condition.reads().robot || condition.reads().places;
   if (!line_.failed() && (of_job || !condition.reads().signals)) {
-    line_.error(start, "an interrupt monitors shared variables, and no variables of the job");
+    line_.error(start,
+                "an interrupt monitors shared variables: no variables of the job, no places, no TIME and TIPSPEED");
   } else if (!line_.failed() && condition.size() > kMaxParts) {
     line_.error(start, "this condition is too long to be watched; have a PLC program compute it");
   } else if (!line_.failed() && !line_.accept("CALL")) {
@@ -235,9 +236,13 @@ void FlowReader::priority() {
   for (const auto& each : all) {
     different.insert(each.priority);
   }
+  std::string numbers;
+  for (const int each : different) {
+    numbers += (numbers.empty() ? "" : ", ") + (each == kLast ? std::string("none") : std::to_string(each));
+  }
   if (different.size() > kMaxPriorities) {
     line_.error(start, "the ON of these jobs have more than " + std::to_string(kMaxPriorities) +
-                           " different priorities; one without PRIORITY comes after all others, and counts as well");
+                           " different priorities: " + numbers + "; none comes after all others, and counts as well");
     all.back().priority = all.front().priority;
   }
 }

@@ -22,12 +22,17 @@ base::SourcePlace JobLine::place(const JobToken& token) const noexcept {
   return {static_cast<int>(number_), static_cast<int>(token.column)};
 }
 
-bool JobLine::accept(std::string_view word) {
-  const bool matches = peek().kind != JobToken::Kind::Number && same_word(peek().text, word);
+bool JobLine::is_word(const JobToken& token, std::string_view word) {
+  const bool matches = token.kind != JobToken::Kind::Number && same_word(token.text, word);
   if (matches) {
-    keywords_.push_back({peek().column, word});
-    ++at_;
+    keywords_.push_back({token.column, word});
   }
+  return matches;
+}
+
+bool JobLine::accept(std::string_view word) {
+  const bool matches = is_word(peek(), word);
+  at_ += matches ? 1 : 0;
   return matches;
 }
 

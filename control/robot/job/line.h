@@ -44,6 +44,8 @@ class JobLine {
   JobToken take() { return at_end() ? tokens_[at_] : tokens_[at_++]; }
   // Takes the token if it is this word or sign, which must outlive the line.
   bool accept(std::string_view word);
+  // Returns whether a token of this line is this word, which must outlive the line.
+  bool is_word(const JobToken& token, std::string_view word);
   // Takes the tokens of a unit, such as mm/s. Where it does not come next, some of them may have been taken.
   bool accept_unit(std::string_view unit);
   void expect_end();

@@ -37,11 +37,15 @@ int special_place(std::string_view name) {
   constexpr std::array<std::pair<std::string_view, int>, 3> kSpecial{
       {{"BACK", kBack}, {"HERE", kHere}, {"FOUND", kFound}}};
   const auto* const found =
-      std::find_if(kSpecial.begin(), kSpecial.end(), [&](const auto& each) { return each.first == name; });
+      std::find_if(kSpecial.begin(), kSpecial.end(), [&](const auto& each) { return same_word(each.first, name); });
   return found == kSpecial.end() ? -1 : found->second;
 }
 
 }  // namespace
+
+bool JobNames::is_special(std::string_view point) noexcept {
+  return special_place(point) != -1;
+}
 
 JobNames::Mention JobNames::mention(const JobToken& name) const {
   return {draft_.index(), std::string(name.text), line_.number(), name.column};

@@ -28,6 +28,8 @@ class JobNames {
   JobNames(JobLine& line, JobDraft& draft) : line_(line), draft_(draft) {}
 
   void begin_job() { labels_.emplace_back(); }
+  // Returns whether this is a place that no file declares: HERE, BACK, FOUND.
+  static bool is_special(std::string_view point) noexcept;
   // Reads a name that the last step refers to.
   void refer(To to, const char* what);
   void refer(To to, const JobToken& name);

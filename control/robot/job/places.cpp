@@ -14,6 +14,10 @@ void PlaceReader::point() {
     line_.error(name, "expected the name of the point, found " + JobLine::shown(name));
     return;
   }
+  if (JobNames::is_special(name.text)) {
+    line_.error(name, JobLine::shown(name) + " is a place that every job knows, so no point can have this name");
+    return;
+  }
   if (!line_.accept("=")) {
     line_.error(line_.peek(), "expected '=', found " + JobLine::shown(line_.peek()) + "; POINT " +
                                   std::string(name.text) + " = JOINT 0 0 0 0 0 0, or = POSE 500 0 300 RPY 180 0 0");

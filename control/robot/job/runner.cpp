@@ -320,7 +320,8 @@ JobRunner::Next JobRunner::wait(const Step& step, double seconds, Signals& signa
   }
   question_.close();
   if (step.index < 0) {
-    refuse({ErrorCode::Line}, step.op == Op::Ask ? "the question was not answered in time" : "waited in vain");
+    refuse({ErrorCode::Line},
+           step.op == Op::Ask ? "the question was not answered in time" : "the condition did not become true in time");
     return Next::Wait;
   }
   jobs_.go_to(step.index - 1);  // from which run() advances

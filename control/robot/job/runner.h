@@ -145,6 +145,8 @@ class JobRunner {
     Search search;
     JobPlaces::Finding found;
     bool in_job = false;
+    std::uint32_t line = 0;
+    int line_job = -1;
   };
   std::array<Interrupted, kMaxPriorities> interrupted_;  // in the order in which they were interrupted
   std::uint32_t ticket_ = 0;                             // last motion that was commanded

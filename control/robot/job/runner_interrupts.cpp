@@ -37,9 +37,9 @@ bool JobRunner::serve_interrupts(Signals& signals, MotionPort& port) noexcept {
 }
 
 void JobRunner::begin_interrupt() noexcept {
-  interrupted_[interrupts_.served()] = {state_,    jobs_.depth(),    waited_, question_.asked(),
-                                        settings_, outputs_.on_path, search_, places_.found(),
-                                        in_job_};
+  interrupted_[interrupts_.served()] = {state_,           jobs_.depth(), waited_,         question_.asked(), settings_,
+                                        outputs_.on_path, search_,       places_.found(), in_job_,           line_,
+                                        line_job_};
   state_ = JobState::Runs;
   waited_ = 0;
   question_.close();
@@ -55,7 +55,9 @@ JobRunner::Next JobRunner::leave_interrupt(MotionPort& port) noexcept {
   if (!outputs_.on_path.any() && port.settled() && long_.end(port) && port.come_back(fault)) {
     interrupts_.begin_return();
   } else if (!fault.ok()) {
-    fail(fault, "this job was called by ON and has ended too far from where the path was left; end it with MOVJ BACK",
+    fail(fault,
+         "this job was called by ON and has ended too far from where the path was left (regain_distance, or 45 deg of "
+         "an axis); end it with MOVJ BACK",
          0);
   }
   return Next::Wait;
@@ -72,6 +74,8 @@ void JobRunner::end_interrupt() noexcept {
   search_ = left.search;
   places_.set_found(left.found);
   in_job_ = left.in_job;
+  line_ = left.line;
+  line_job_ = left.line_job;
   interrupts_.end();
 }
 

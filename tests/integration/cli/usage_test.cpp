@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wrong usage, help, output that goes nowhere.
+#include <sstream>
+
 #include "fixture.h"
 
 namespace indurop::test {
@@ -145,6 +147,35 @@ TEST_F(CommandLine, Options_that_were_replaced_by_verbs_name_these) {
     EXPECT_EQ(sut.code, 2) << now;
     EXPECT_THAT(sut.err, HasSubstr(now));
   }
+}
+
+// Only job files are changed, and only if they have to be.
+TEST_F(CommandLine, Job_files_are_laid_out) {
+  const std::string job = "LOOP\n  MOVJ P1\nEND\n";
+  const std::string library("loop\n  \0 end\n", 13);
+  put("a.job", "loop\nmovj P1\nend\n");
+  put("b.job", job);
+  put("binary.job", library);
+  put("module.xml", " <root/>\n");
+  const auto checked = indurop({"robot", "format", "--check", "a.job", "b.job"});
+  EXPECT_EQ(checked.code, 4);
+  EXPECT_EQ(checked.out, "a.job is not formatted\n");
+  const auto sut = indurop({"robot", "format", "a.job", "b.job", "binary.job", "module.xml", "missing.job"});
+  EXPECT_EQ(sut.code, 1);
+  EXPECT_EQ(sut.out, "formatted a.job\n");
+  for (const char* const refused :
+       {"binary.job is no job file", "module.xml is no job file", "cannot read missing.job"}) {
+    EXPECT_THAT(sut.err, HasSubstr(refused));
+  }
+  const auto content = [](const char* file) {
+    std::stringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+  };
+  EXPECT_EQ(content("a.job"), job);
+  EXPECT_EQ(content("binary.job"), library);
+  EXPECT_EQ(content("module.xml"), " <root/>\n");
+  EXPECT_EQ(indurop({"robot", "format", "--check", "a.job", "b.job"}).code, 0);
 }
 
 }  // namespace

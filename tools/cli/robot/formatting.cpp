@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <string>
+
 #include "control/robot/job/format.h"
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
@@ -15,6 +18,11 @@ int format_jobs(Context& context, const FormatOrder& order) {
     const auto text = base::read_file(file);
     if (!text) {
       context.out.error(fmt::format("cannot read {}: {}", file, text.error().text));
+      code = kFailed;
+      continue;
+    }
+    if (std::filesystem::path(file).extension() != ".job" || text->find('\0') != std::string::npos) {
+      context.out.error(file + " is no job file, NAME.job with text");
       code = kFailed;
       continue;
     }

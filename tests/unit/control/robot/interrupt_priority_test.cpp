@@ -40,7 +40,8 @@ TEST(InterruptPriority, Errors_are_reported_with_their_place) {
   EXPECT_THAT(errors_of_priorities(three + "ON I4 CALL eject PRIORITY 2\n"), ElementsAre());
   EXPECT_THAT(
       errors_of_priorities(three + "ON I4 CALL eject PRIORITY 4\nON I4 CALL eject PRIORITY 3\n"),
-      ElementsAre(HasSubstr("main.job:4:18: error: the ON of these jobs have more than 3 different priorities")));
+      ElementsAre(HasSubstr(
+          "main.job:4:18: error: the ON of these jobs have more than 3 different priorities: 1, 2, 3, 4; none")));
   EXPECT_THAT(errors_of_priorities(three + "ON I4 CALL eject\n"),
               ElementsAre(HasSubstr("main.job:4:17: error: the ON of these")));
 }

@@ -30,9 +30,9 @@ TEST(Interrupt, Errors_are_reported_with_their_place) {
               ElementsAre("main.job:1:12: error: there is no job 'ejct'; did you mean 'eject'?\n"));
   EXPECT_THAT(errors_of("ON I1 eject\n"),
               ElementsAre(HasSubstr("main.job:1:7: error: expected CALL and the name of a job, found 'eject'")));
-  EXPECT_THAT(
-      errors_of("VAR n\nON n CALL eject\n"),
-      ElementsAre("main.job:2:4: error: an interrupt monitors shared variables, and no variables of the job\n"));
+  EXPECT_THAT(errors_of("VAR n\nON n CALL eject\n"),
+              ElementsAre("main.job:2:4: error: an interrupt monitors shared variables: no variables of the job, no "
+                          "places, no TIME and TIPSPEED\n"));
   EXPECT_THAT(errors_of("ON 1 CALL eject\n"), ElementsAre(HasSubstr("main.job:1:4: error: an interrupt monitors")));
   EXPECT_THAT(errors_of("ON I1 CALL two\n"),
               ElementsAre("main.job:1:12: error: job 'two' takes 1 value, here are 0\n"));
@@ -45,6 +45,14 @@ TEST(Interrupt, Errors_are_reported_with_their_place) {
   EXPECT_THAT(errors_of(many), ElementsAre(HasSubstr("main.job:129:1: error: there are more than 128 ON")));
   EXPECT_THAT(errors_of("POINT A = POSE 500 0 300 RPY 180 0 0\nMOVC BACK A\n"),
               ElementsAre(HasSubstr("there is no point 'BACK'")));
+  for (const char* const name : {"BACK", "here", "Found"}) {
+    EXPECT_THAT(
+        errors_of(fmt::format("POINT {} = POSE 500 0 300 RPY 180 0 0\n", name)),
+        ElementsAre(fmt::format("main.job:1:7: error: '{}' is a place that every job knows, so no point can have "
+                                "this name\n",
+                                name)));
+  }
+  EXPECT_THAT(errors_of("movj back\nmovj here\nsearch here until i1\nmovj found\n"), ElementsAre());
   EXPECT_THAT(errors_of("POINT A = JOINT 0 0 0 0 0 0\nMOVJ A OFFSET 0, 0, 1\n"),
               ElementsAre(HasSubstr("'A' has joint angles; say it as POSE (indurop robot teach A --pose)")));
 }
@@ -212,6 +220,20 @@ TEST(Interrupt, The_tool_is_drawn_back_from_where_the_path_was_left) {
     EXPECT_EQ(sut.cell.out.job.state, JobState::Ended) << sut.cell.out.job.message;
     EXPECT_EQ(sut.broken, "");
   }
+}
+
+// Behind it, the report names the interrupted job again.
+TEST(Interrupt, A_job_that_was_interrupted_is_the_one_that_is_reported) {
+  JobMachine sut(kInterruptPoints + "ON I1 CALL other\nMOVJ A\nSPEED 100 mm/s\nMOVL B\n", {{"other", "WAIT 0.1s\n"}});
+  ASSERT_TRUE(sut.until([&] { return sut.cell.out.job.line == 11 && sut.cell.out.tool_speed > 90; }));
+  sut.signal("I1") = 1;
+  ASSERT_TRUE(sut.until([&] { return std::string_view(sut.cell.out.job.called) == "other"; }));
+  ASSERT_TRUE(
+      sut.until([&] { return std::string_view(sut.cell.out.job.called) == "main" && sut.cell.out.tool_speed > 90; }));
+  ASSERT_TRUE(sut.until([&] { return sut.ended(); }));
+  EXPECT_EQ(sut.cell.out.job.state, JobState::Ended);
+  EXPECT_STREQ(sut.cell.out.job.called, "main");
+  EXPECT_EQ(sut.cell.out.job.line, 11U);
 }
 
 TEST(Interrupt, One_that_ends_far_from_the_path_stops_the_job_with_what_to_do) {

@@ -147,7 +147,7 @@ TEST(Job, A_wait_that_takes_too_long_names_its_line) {
     sut.step(0.01, port, port);
   }
   EXPECT_EQ(sut.report(0).state, JobState::Failed);
-  EXPECT_STREQ(sut.report(0).message, "a.job:2: waited in vain");
+  EXPECT_STREQ(sut.report(0).message, "a.job:2: the condition did not become true in time");
 }
 
 TEST(Job, A_motion_that_fails_names_its_line) {
