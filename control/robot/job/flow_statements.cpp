@@ -236,11 +236,11 @@ void FlowReader::priority() {
   for (const auto& each : all) {
     different.insert(each.priority);
   }
-  std::string numbers;
-  for (const int each : different) {
-    numbers += (numbers.empty() ? "" : ", ") + (each == kLast ? std::string("none") : std::to_string(each));
-  }
   if (different.size() > kMaxPriorities) {
+    std::string numbers;
+    for (const int each : different) {
+      numbers += (numbers.empty() ? "" : ", ") + (each == kLast ? std::string("none") : std::to_string(each));
+    }
     line_.error(start, "the ON of these jobs have more than " + std::to_string(kMaxPriorities) +
                            " different priorities: " + numbers + "; none comes after all others, and counts as well");
     all.back().priority = all.front().priority;

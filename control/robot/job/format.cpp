@@ -2,12 +2,13 @@
 #include "control/robot/job/format.h"
 
 #include <algorithm>
-#include <cctype>
+#include <iterator>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "control/robot/job/parser.h"
+#include "core/base/text.h"
 
 namespace indurop::robot {
 
@@ -19,18 +20,12 @@ bool begins_part(const std::vector<JobLine::Keyword>& words) {
   return !words.empty() && std::find(std::begin(kParts), std::end(kParts), words.front().word) != std::end(kParts);
 }
 
-std::string_view trimmed(std::string_view line) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t first = std::min(line.find_first_not_of(kBlanks), line.size());
-  return line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
-}
-
 class JobFormat {
  public:
   explicit JobFormat(const JobFile& file) : errors_("", found_, 0), parser_(book_, errors_, {}) { parser_.begin(file); }
 
   void add(std::string_view line) {
-    const std::string_view content = trimmed(line);
+    const std::string_view content = base::trimmed(line);
     if (content.empty()) {
       waits_.emplace_back();
       return;
@@ -48,7 +43,7 @@ class JobFormat {
     }
     const bool part = begins_part(words) && depth > 0;
     add_waiting(part ? depth - 1 : depth);
-    add(trimmed(text), part ? depth - 1 : std::min(depth, parser_.depth()));
+    add(base::trimmed(text), part ? depth - 1 : std::min(depth, parser_.depth()));
   }
   std::string end() {
     add_waiting(parser_.depth());

@@ -11,9 +11,20 @@
 #include <string>
 #include <vector>
 
+#include "control/robot/job/job.h"
 #include "limit_judge.h"
 
 namespace indurop::robot {
+
+// Each error of this job, which may call two others.
+inline std::vector<std::string> interrupt_errors(const std::string& text) {
+  std::vector<std::string> all;
+  for (const auto& each :
+       parse_jobs({{"main.job", text}, {"eject.job", "SET O1 ON\n"}, {"two.job", "PARAM a\n"}}).diagnostics) {
+    all.push_back(base::to_text({each}));
+  }
+  return all;
+}
 
 inline const std::string kInterruptPoints =
     "POINT H = JOINT 0 -20 10 0 100 0\nTOOL pen = POSE 0 40 90 RPY 0 0 0\n"

@@ -16,33 +16,25 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::vector<std::string> errors_of_priorities(const std::string& text) {
-  std::vector<std::string> all;
-  for (const auto& each : parse_jobs({{"main.job", text}, {"eject.job", "SET O1 ON\n"}}).diagnostics) {
-    all.push_back(base::to_text({each}));
-  }
-  return all;
-}
-
 TEST(InterruptPriority, Errors_are_reported_with_their_place) {
-  EXPECT_THAT(errors_of_priorities("ON I1 CALL eject PRIORITY 1\nON I2 CALL eject PRIORITY 99\nON I3 CALL eject\n"),
+  EXPECT_THAT(interrupt_errors("ON I1 CALL eject PRIORITY 1\nON I2 CALL eject PRIORITY 99\nON I3 CALL eject\n"),
               ElementsAre());
-  EXPECT_THAT(errors_of_priorities("ON I1 CALL eject PRIORITY\n"),
+  EXPECT_THAT(interrupt_errors("ON I1 CALL eject PRIORITY\n"),
               ElementsAre(HasSubstr("main.job:1:26: error: expected the number of the priority")));
   for (const char* const wrong : {"0", "100", "1.5", "-1"}) {
     EXPECT_THAT(
-        errors_of_priorities(std::string("ON I1 CALL eject PRIORITY ") + wrong + "\n"),
+        interrupt_errors(std::string("ON I1 CALL eject PRIORITY ") + wrong + "\n"),
         ElementsAre("main.job:1:27: error: a priority is a whole number from 1, which interrupts all others, to "
                     "99\n"));
   }
-  EXPECT_THAT(errors_of_priorities("ON I1 CALL eject 1\n"), ElementsAre(HasSubstr("main.job:1:18: error: ")));
+  EXPECT_THAT(interrupt_errors("ON I1 CALL eject 1\n"), ElementsAre(HasSubstr("main.job:1:18: error: ")));
   const std::string three = "ON I1 CALL eject PRIORITY 1\nON I2 CALL eject PRIORITY 2\nON I3 CALL eject PRIORITY 3\n";
-  EXPECT_THAT(errors_of_priorities(three + "ON I4 CALL eject PRIORITY 2\n"), ElementsAre());
+  EXPECT_THAT(interrupt_errors(three + "ON I4 CALL eject PRIORITY 2\n"), ElementsAre());
   EXPECT_THAT(
-      errors_of_priorities(three + "ON I4 CALL eject PRIORITY 4\nON I4 CALL eject PRIORITY 3\n"),
+      interrupt_errors(three + "ON I4 CALL eject PRIORITY 4\nON I4 CALL eject PRIORITY 3\n"),
       ElementsAre(HasSubstr(
           "main.job:4:18: error: the ON of these jobs have more than 3 different priorities: 1, 2, 3, 4; none")));
-  EXPECT_THAT(errors_of_priorities(three + "ON I4 CALL eject\n"),
+  EXPECT_THAT(interrupt_errors(three + "ON I4 CALL eject\n"),
               ElementsAre(HasSubstr("main.job:4:17: error: the ON of these")));
 }
 

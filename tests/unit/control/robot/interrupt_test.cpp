@@ -15,45 +15,39 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::vector<std::string> errors_of(const std::string& text) {
-  std::vector<std::string> all;
-  for (const auto& each :
-       parse_jobs({{"main.job", text}, {"eject.job", "SET O1 ON\n"}, {"two.job", "PARAM a\n"}}).diagnostics) {
-    all.push_back(base::to_text({each}));
-  }
-  return all;
-}
-
 TEST(Interrupt, Errors_are_reported_with_their_place) {
-  EXPECT_THAT(errors_of("ON I1 CALL eject\nON I1 OFF AND count > 3 CALL eject\nOFF CALL eject\n"), ElementsAre());
-  EXPECT_THAT(errors_of("ON I1 CALL ejct\n"),
+  EXPECT_THAT(interrupt_errors("ON I1 CALL eject\nON I1 OFF AND count > 3 CALL eject\nOFF CALL eject\n"),
+              ElementsAre());
+  EXPECT_THAT(interrupt_errors("ON I1 CALL ejct\n"),
               ElementsAre("main.job:1:12: error: there is no job 'ejct'; did you mean 'eject'?\n"));
-  EXPECT_THAT(errors_of("ON I1 eject\n"),
+  EXPECT_THAT(interrupt_errors("ON I1 eject\n"),
               ElementsAre(HasSubstr("main.job:1:7: error: expected CALL and the name of a job, found 'eject'")));
-  EXPECT_THAT(errors_of("VAR n\nON n CALL eject\n"),
+  EXPECT_THAT(interrupt_errors("VAR n\nON n CALL eject\n"),
               ElementsAre("main.job:2:4: error: an interrupt monitors shared variables: no variables of the job, no "
                           "places, no TIME and TIPSPEED\n"));
-  EXPECT_THAT(errors_of("ON 1 CALL eject\n"), ElementsAre(HasSubstr("main.job:1:4: error: an interrupt monitors")));
-  EXPECT_THAT(errors_of("ON I1 CALL two\n"),
+  EXPECT_THAT(interrupt_errors("ON 1 CALL eject\n"),
+              ElementsAre(HasSubstr("main.job:1:4: error: an interrupt monitors")));
+  EXPECT_THAT(interrupt_errors("ON I1 CALL two\n"),
               ElementsAre("main.job:1:12: error: job 'two' takes 1 value, here are 0\n"));
-  EXPECT_THAT(errors_of("OFF eject\n"), ElementsAre(HasSubstr("main.job:1:5: error: expected CALL")));
-  EXPECT_THAT(errors_of("ON a+b+c+d+e+f+g+h+i > 1 CALL eject\n"), ElementsAre(HasSubstr("main.job:1:4: error: this")));
+  EXPECT_THAT(interrupt_errors("OFF eject\n"), ElementsAre(HasSubstr("main.job:1:5: error: expected CALL")));
+  EXPECT_THAT(interrupt_errors("ON a+b+c+d+e+f+g+h+i > 1 CALL eject\n"),
+              ElementsAre(HasSubstr("main.job:1:4: error: this")));
   std::string many;
   for (int i = 0; i < 129; ++i) {
     many += "ON I1 CALL eject\n";
   }
-  EXPECT_THAT(errors_of(many), ElementsAre(HasSubstr("main.job:129:1: error: there are more than 128 ON")));
-  EXPECT_THAT(errors_of("POINT A = POSE 500 0 300 RPY 180 0 0\nMOVC BACK A\n"),
+  EXPECT_THAT(interrupt_errors(many), ElementsAre(HasSubstr("main.job:129:1: error: there are more than 128 ON")));
+  EXPECT_THAT(interrupt_errors("POINT A = POSE 500 0 300 RPY 180 0 0\nMOVC BACK A\n"),
               ElementsAre(HasSubstr("there is no point 'BACK'")));
   for (const char* const name : {"BACK", "here", "Found"}) {
     EXPECT_THAT(
-        errors_of(fmt::format("POINT {} = POSE 500 0 300 RPY 180 0 0\n", name)),
+        interrupt_errors(fmt::format("POINT {} = POSE 500 0 300 RPY 180 0 0\n", name)),
         ElementsAre(fmt::format("main.job:1:7: error: '{}' is a place that every job knows, so no point can have "
                                 "this name\n",
                                 name)));
   }
-  EXPECT_THAT(errors_of("movj back\nmovj here\nsearch here until i1\nmovj found\n"), ElementsAre());
-  EXPECT_THAT(errors_of("POINT A = JOINT 0 0 0 0 0 0\nMOVJ A OFFSET 0, 0, 1\n"),
+  EXPECT_THAT(interrupt_errors("movj back\nmovj here\nsearch here until i1\nmovj found\n"), ElementsAre());
+  EXPECT_THAT(interrupt_errors("POINT A = JOINT 0 0 0 0 0 0\nMOVJ A OFFSET 0, 0, 1\n"),
               ElementsAre(HasSubstr("'A' has joint angles; say it as POSE (indurop robot teach A --pose)")));
 }
 
