@@ -45,6 +45,19 @@ int JobDraft::keep(std::vector<Formula> formulas) const {
   return first;
 }
 
+int JobDraft::signal(const JobToken& name, bool set) const {
+  const auto index = static_cast<std::size_t>(std::find(book_.signals.begin(), book_.signals.end(), name.text) -
+                                              book_.signals.begin());
+  if (index == book_.signals.size()) {
+    book_.signals.emplace_back(name.text);
+  }
+  if (std::none_of(book_.named.begin(), book_.named.end(),
+                   [&](const NamedVariable& one) { return one.name == name.text && one.set == set; })) {
+    book_.named.push_back({std::string(name.text), line_.file(), line_.place(name), set});
+  }
+  return static_cast<int>(index);
+}
+
 int JobDraft::add_hidden(std::size_t count) const {
   const int first = static_cast<int>(job().variables.size());
   job().variables.resize(job().variables.size() + count);

@@ -32,6 +32,8 @@ class JobDraft {
   int keep(Formula formula) const;
   // Keeps formulas next to each other. Returns the index of the first one; -1 if there are none.
   int keep(std::vector<Formula> formulas) const;
+  // Returns the index in the book of the shared variable that `name` reads, or sets. Keeps the first place of each use.
+  int signal(const JobToken& name, bool set) const;
   // Adds a variable of the job that has no name, or the elements of an array after its first one.
   int add_hidden(std::size_t count = 1) const;
   // Returns the index of a variable of the job, for an array that of its first element; -1: there is none.

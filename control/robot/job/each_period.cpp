@@ -136,7 +136,7 @@ void EachPeriodReader::keep(const JobCorrection& correction) {
 // Parses "FOLLOW O9 = 0.02 * TIPSPEED", "FOLLOW O9 OFF"
 void EachPeriodReader::follow() {
   Step step;
-  step.index = expressions_.signal("the name of a variable");
+  step.index = expressions_.signal("the name of a variable", ExpressionReader::Use::Set);
   if (!line_.failed() && !line_.accept("OFF")) {
     line_.accept("=");
     const JobToken start = line_.peek();
@@ -225,7 +225,7 @@ void EachPeriodReader::age(JobCorrection& correction) {
   if (!line_.accept("AGE")) {
     return;
   }
-  correction.beat = expressions_.signal("the variable that counts the measurements");
+  correction.beat = expressions_.signal("the variable that counts the measurements", ExpressionReader::Use::Read);
   const JobToken time = line_.peek();
   if (!line_.failed() && line_.duration(correction.age) && !(correction.age > 0)) {
     line_.error(time, "the age of a correction is more than 0 s");

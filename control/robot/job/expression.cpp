@@ -102,19 +102,13 @@ std::vector<Formula> ExpressionReader::list(int count, const char* what, const c
   return formulas;
 }
 
-int ExpressionReader::signal(const char* what) {
+int ExpressionReader::signal(const char* what, Use use) {
   const JobToken name = line_.take();
   if (name.kind != JobToken::Kind::Word) {
     line_.error(name, std::string("expected ") + what + ", found " + JobLine::shown(name));
     return -1;
   }
-  const auto found = std::find(draft_.book().signals.begin(), draft_.book().signals.end(), name.text);
-  if (found == draft_.book().signals.end()) {
-    draft_.book().signals.emplace_back(name.text);
-    draft_.book().named.push_back({std::string(name.text), line_.file(), line_.place(name)});
-    return static_cast<int>(draft_.book().signals.size()) - 1;
-  }
-  return static_cast<int>(found - draft_.book().signals.begin());
+  return draft_.signal(name, use == Use::Set);
 }
 
 int ExpressionReader::declare(const JobToken& name) {
@@ -379,7 +373,7 @@ Formula ExpressionReader::named(int depth) {
     formula.push({FormulaOp::Found, -1, 0});
   } else {
     const JobToken name = line_.peek();
-    formula.push({FormulaOp::Signal, signal("the name of a variable"), 0});
+    formula.push({FormulaOp::Signal, signal("the name of a variable", Use::Read), 0});
     if (line_.peek().text == "[") {
       line_.error(line_.peek(), "the number of an element of a shared variable is written as " +
                                     std::string(name.text) + "[3], not computed");

@@ -26,8 +26,9 @@ class ExpressionReader {
   Formula formula(const char* what);
   // Reads `count` expressions with commas between them. `example`: how to write them.
   std::vector<Formula> list(int count, const char* what, const char* example);
+  enum class Use { Read, Set };
   // Reads the name of a shared variable. Returns its index in the book.
-  int signal(const char* what);
+  int signal(const char* what, Use use);
 
   // A variable of the job, or an element of an array of it.
   struct Place {

@@ -216,11 +216,13 @@ inline constexpr std::size_t kMaxInterrupts = 128;  // of all jobs together
 inline constexpr std::size_t kMaxPriorities = 3;    // of interrupts, so many of which may be inside each other
 inline constexpr std::size_t kMaxLoops = 8;         // inside each other
 
-// A shared variable or a SYNC that jobs use, and the first place where it is used.
+// A shared variable or a SYNC that jobs use, and the first place where it is used. A variable that is both read and set
+// has two entries.
 struct NamedVariable {
   std::string name;
   std::string file;
   base::SourcePlace place;
+  bool set = false;
 };
 
 struct JobBook {
@@ -231,7 +233,7 @@ struct JobBook {
   std::vector<BodyLine> keepouts{}, bodies{};
   std::vector<Job> jobs;
   std::vector<std::string> signals;
-  std::vector<NamedVariable> named{};  // the same signals, with their places
+  std::vector<NamedVariable> named{};  // the same signals, with their places and uses
   std::vector<Formula> formulas;
   std::vector<PlacePart> place_parts{};  // of all place formulas
   std::vector<PlaceFormula> places{};

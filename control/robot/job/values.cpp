@@ -11,7 +11,7 @@ namespace indurop::robot {
 
 void ValueReader::set() {
   Step step;
-  step.index = expressions_.signal("the name of a variable");
+  step.index = expressions_.signal("the name of a variable", ExpressionReader::Use::Set);
   line_.accept("=");
   step.formula = line_.failed() ? -1 : expressions_.read("ON, OFF or the value");
   add_setting(step);
@@ -20,7 +20,7 @@ void ValueReader::set() {
 // Parses "PULSE O8 0.2s", "PULSE O8 200 ms BEFORE 50 mm"
 void ValueReader::pulse() {
   Step step;
-  step.index = expressions_.signal("the name of a variable");
+  step.index = expressions_.signal("the name of a variable", ExpressionReader::Use::Set);
   const JobToken time = line_.peek();
   if (!line_.failed() && line_.duration(step.pulse) && !(step.pulse > 0)) {
     line_.error(time, "a pulse is longer than 0 s");

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "control/robot/files/list_bodies.h"
 #include "tools/client/robot/pallets.h"
@@ -76,11 +78,41 @@ bool is_number(const schema::Type& type) {
          type.base != Base::Enum;
 }
 
-// Finds shared variables that jobs name and no module of the board declares; the node would not start.
-void check_variables(const robot::Findings& found, const schema::Schema& schema, std::vector<base::Diagnostic>& all) {
+// Warns of a variable that jobs read or set and the access map does not know: <access> does not name it, and the code
+// of the module does not use it. A module may read what it writes.
+void warn_of_access(const robot::NamedVariable& named, const std::string& variable, const std::string& module,
+                    const config::CheckResult& check, std::vector<base::Diagnostic>& all) {
+  const auto use = std::find_if(check.uses.begin(), check.uses.end(),
+                                [&variable](const config::VariableUse& one) { return one.name == variable; });
+  const auto has_module = [&module](const std::vector<std::string>& modules) {
+    return std::find(modules.begin(), modules.end(), module) != modules.end();
+  };
+  const bool known = use != check.uses.end() && (has_module(use->writers) || (!named.set && has_module(use->readers)));
+  if (!known) {
+    all.push_back(
+        {base::Diagnostic::Severity::Warning, named.file, named.place,
+         fmt::format("jobs {0} '{1}', which <access> of module '{2}' does not name; add <{3}>{1}</{3}>, so "
+                     "that {4}",
+                     named.set ? "set" : "read", variable, module, named.set ? "write" : "read",
+                     named.set ? "other boards get it, and other writers are reported"
+                               : "this board gets it from others, and modules on several cores are in order")});
+  }
+}
+
+// Finds shared variables that jobs name and no module of the board declares, with which the node would not start, and
+// those that the access map does not know. Each one is reported once for each use.
+void check_variables(const robot::Findings& found, const std::string& module, const config::CheckResult& check,
+                     std::vector<base::Diagnostic>& all) {
+  std::set<std::string> wrong;
+  std::set<std::pair<std::string, bool>> checked;
   for (const robot::NamedVariable& one : found.variables) {
-    const auto place = schema::find_place(schema, one.name);
-    if (!place || !is_number(place->type)) {
+    const auto place = schema::find_place(check.schema, one.name);
+    if (place && is_number(place->type)) {
+      // With errors, the access map may lack modules.
+      if (check.ok() && checked.emplace(place->variable->name, one.set).second) {
+        warn_of_access(one, place->variable->name, module, check, all);
+      }
+    } else if (wrong.insert(one.name).second) {
       all.push_back({base::Diagnostic::Severity::Error, one.file, one.place,
                      place ? fmt::format("'{}' is not a number or bool; name a part that is one", one.name)
                            : fmt::format("{} (jobs name variables of this board's modules)", place.error().message)});
@@ -166,7 +198,7 @@ std::vector<base::Diagnostic> check_robot_files(const config::Config& config, co
       check_others(config, module, check.schema, all);
     }
     if (!check.schema.variables.empty() && !base::has_error(found.files)) {
-      check_variables(found, check.schema, all);
+      check_variables(found, module.name, check, all);
     }
   }
   return all;

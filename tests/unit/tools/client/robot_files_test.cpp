@@ -76,7 +76,39 @@ TEST_F(Robot_files, Jobs_name_variables_that_there_are) {
               testing::IsSupersetOf({HasSubstr("pick.job:3:5: error: no variable 'I5'; did you mean 'PLC_ROBOT::I4'?"),
                                      HasSubstr("pick.job:4:15: error: 'name' is not a number")}));
   write("pick.job", "WAIT I4 ON\nSET PLC_ROBOT::I4 ON\n");
-  EXPECT_THAT(errors(), testing::Not(testing::Contains(HasSubstr("pick.job"))));
+  EXPECT_THAT(errors(), testing::Not(testing::Contains(HasSubstr("error:"))));
+}
+
+TEST_F(Robot_files, Variables_of_jobs_that_access_does_not_name_get_a_warning) {
+  for (const char* name : {"A::in", "A::both", "A::out"}) {
+    schema::Variable& one = check_.schema.variables.emplace_back();
+    one.name = name;
+    one.type.base = schema::Base::Int16;
+    one.type.element_size = 2;
+  }
+  write("arm.urdf", kArm);
+  config_.modules[0].name = "Arm";
+  config_.modules[0].properties = {{"urdf", "arm.urdf"}, {"jobs", "pick.job"}};
+  write("pick.job", "WAIT in ON\nFOLLOW out = both + in\nSET A::both ON\nPULSE out 1s\nIF A::out > 1\nEND\n");
+  const auto of_job = [&] {
+    std::vector<std::string> found = errors();
+    std::erase_if(found, [](const std::string& text) { return text.find("pick.job") == std::string::npos; });
+    return found;
+  };
+  const auto warning = [](const char* place, const char* what, const char* element) {
+    return testing::AllOf(HasSubstr(std::string("pick.job:") + place + ": warning: jobs " + what + ", which <access>"),
+                          HasSubstr(std::string("add ") + element));
+  };
+  EXPECT_THAT(of_job(), testing::UnorderedElementsAre(warning("1:6", "read 'A::in'", "<read>A::in</read>"),
+                                                      warning("2:8", "set 'A::out'", "<write>A::out</write>"),
+                                                      warning("2:14", "read 'A::both'", "<read>A::both</read>"),
+                                                      warning("3:5", "set 'A::both'", "<write>A::both</write>"),
+                                                      warning("5:4", "read 'A::out'", "<read>A::out</read>")));
+  // What another module names does not count, and what a module writes it may read.
+  check_.uses = {{"A::in", {"Arm"}, {}}, {"A::both", {"Arm"}, {"Other"}}, {"A::out", {"Other"}, {"Arm"}}};
+  EXPECT_THAT(of_job(), ElementsAre(HasSubstr("add <write>A::both</write>")));
+  check_.uses[1].writers.emplace_back("Arm");
+  EXPECT_THAT(of_job(), IsEmpty());
 }
 
 TEST_F(Robot_files, Other_robots_are_declared_and_named_in_access) {
