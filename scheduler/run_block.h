@@ -16,7 +16,7 @@
 namespace indurop::scheduler {
 
 inline constexpr std::uint64_t kRunMagic = 0x314e555255444e49ULL;  // "INDURUN1"
-inline constexpr std::uint32_t kRunAbi = 11;
+inline constexpr std::uint32_t kRunAbi = 12;
 inline constexpr std::size_t kTextLength = 160;
 
 enum class NodeState : std::uint32_t { Starting, Running, Stopping, Stopped, Failed };
@@ -240,6 +240,7 @@ struct RunBlock {
   std::atomic<std::int64_t> spin_margin_ns;
   Obtained obtained;
   char stop_reason[kTextLength];
+  char unsaved[kTextLength];     // why retained values cannot be saved at present; empty: they are saved
   std::uint64_t modules_offset;  // ModuleRecord[module_capacity]
   std::uint64_t slots_offset;    // ProcessSlot[module_capacity]
   std::uint64_t rings_offset;    // MessageRing[module_capacity + 1], the last one of the node itself

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
+#include <string>
 
 #include "core/rt/clock.h"
+#include "core/rt/copy_text.h"
 #include "node/run/ending.h"
 #include "store/vars/layout.h"
 
@@ -48,29 +51,42 @@ void Retainer::load(Console& console, bool only_changed) {
   }
 }
 
-void Retainer::start() {
+void Retainer::start(scheduler::RunBlock& run, const Console& console) {
   if (!any_) {
     return;
   }
-  auto thread = rt::Thread::start({"irp-retain", 0, -1}, [this] { loop(); });
+  auto thread = rt::Thread::start({"irp-retain", 0, -1}, [this, &run, &console] { loop(run, console); });
   if (thread) {
     thread_ = std::move(thread).value();
   }
 }
 
-void Retainer::loop() {
+void Retainer::loop(scheduler::RunBlock& run, const Console& console) {
   rt::MonoTime next = rt::MonoClock::now() + kSaveEvery;
+  std::optional<rt::MonoTime> failing_since;
   while (!stop_.load()) {
     rt::sleep_until(rt::MonoClock::now() + kRetainPoll);
-    if (rt::MonoClock::now() >= next) {
-      const Status saved = file_.save(store_);
-      failed_.store(static_cast<int>(saved.error().code));
-      next = rt::MonoClock::now() + kSaveEvery;
+    const rt::MonoTime now = rt::MonoClock::now();
+    if (now < next) {
+      continue;
     }
+    const Status saved = file_.save(store_);
+    if (!saved && !failing_since) {
+      failing_since = now;
+      const std::string why = describe(saved.error());
+      rt::copy_text(run.unsaved, why);
+      console.error("retained variables cannot be saved: {}; the node tries again every second", why);
+    } else if (saved && failing_since) {
+      rt::copy_text(run.unsaved, "");
+      console.warning("retained variables are saved again, after {} s",
+                      std::chrono::round<std::chrono::seconds>(now - *failing_since).count());
+      failing_since.reset();
+    }
+    next = rt::MonoClock::now() + kSaveEvery;
   }
 }
 
-bool Retainer::stop(Console& console) {
+bool Retainer::stop(const Console& console) {
   stop_.store(true);
   thread_.join();
   if (!any_) {
@@ -79,8 +95,6 @@ bool Retainer::stop(Console& console) {
   const Status saved = file_.save(store_);
   if (!saved) {
     console.error("retained variables could not be saved: {}", describe(saved.error()));
-  } else if (failed_.load() != 0) {
-    console.warning("an earlier save of the retained variables failed; the last one succeeded");
   }
   return saved.ok();
 }

@@ -189,7 +189,7 @@ Result<void, Ending> Running::start_schedule() {
     }
   }
   if (prepared_.retainer) {
-    prepared_.retainer->start();
+    prepared_.retainer->start(run_, console_);
   }
   if (auto mirrored = mirror_.start(simulation_ ? &*simulation_ : nullptr); !mirrored) {
     return mirrored;

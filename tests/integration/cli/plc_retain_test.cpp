@@ -91,5 +91,28 @@ TEST_F(PlcRetain, Values_go_on_in_variables_of_another_type) {
   }
 }
 
+// The folder of the state is not one yet, as a disk that is full or was not mounted.
+TEST_F(PlcRetain, Values_that_cannot_be_saved_are_reported_until_they_are) {
+  put(file("keep.st"), "PROGRAM main VAR RETAIN count : DINT; END_VAR count := count + 1; END_PROGRAM\n");
+  const Outcome built = indurop({"plc", "build", file("keep.st"), "-o", file("keep")});
+  ASSERT_EQ(built.code, 0) << built.err;
+  put(file("keep/module.xml"), "<root>\n" + built.out + "</root>\n");
+  put(file("disk"), "");
+  Environment blocked;
+  blocked.variables = {"INDUROP_STATE_DIR=" + file("disk") + "/state"};
+  Program node(indurop_command({"run", file("keep/module.xml"), "-q", "--node", "keep"}), blocked);
+  ASSERT_TRUE(node.says("error: retained variables cannot be saved: "));
+  const Outcome failing = indurop({"status", "--node", "keep", "--check"});
+  EXPECT_EQ(failing.code, 4);
+  EXPECT_THAT(failing.out, HasSubstr("wrong     retained variables cannot be saved: "));
+  std::filesystem::remove(file("disk"));
+  ASSERT_TRUE(node.says("retained variables are saved again, after "));
+  const Outcome saving = indurop({"status", "--node", "keep", "--check"});
+  EXPECT_EQ(saving.code, 0) << saving.out;
+  EXPECT_TRUE(std::filesystem::exists(file("disk") + "/state/keep/retain.a"));
+  node.signal(SIGTERM);
+  EXPECT_EQ(node.wait(), 0) << node.err();
+}
+
 }  // namespace
 }  // namespace indurop::test

@@ -47,6 +47,11 @@ std::optional<std::string> clocks_apart(const MirrorView& mirror, const PeerView
                      human_ns(peer.clock_bound_ns));
 }
 
+std::string unsaved_text(const RunView& run) {
+  const std::string why = printable(fixed_text(run.block().unsaved));
+  return why.empty() || !run.node_alive() ? std::string() : fmt::format("retained variables cannot be saved: {}", why);
+}
+
 std::vector<std::string> trouble_now(const RunView& run, const std::optional<MirrorView>& mirror) {
   std::vector<std::string> all;
   const auto modules = modules_now(run);
@@ -54,6 +59,9 @@ std::vector<std::string> trouble_now(const RunView& run, const std::optional<Mir
     if (!one.down.empty()) {
       all.push_back(fmt::format("module {} {}{}{}", one.name, one.down, one.why.empty() ? "" : ": ", one.why));
     }
+  }
+  if (const std::string text = unsaved_text(run); !text.empty()) {
+    all.push_back(text);
   }
   if (mirror && !mirror->problem.empty()) {
     all.push_back(fmt::format("not connected with other boards: {}", printable(mirror->problem)));

@@ -22,7 +22,11 @@ std::optional<std::vector<alarms::ModuleNow>> modules_now(const std::string& nod
 // a tenth of the basic period (in ns; 0: unknown), so that ticks of the boards no longer begin together.
 std::optional<std::string> clocks_apart(const MirrorView& mirror, const PeerView& peer, std::int64_t basic_period_ns);
 
-// Describes the modules that do not work, other boards that are missing, and clocks that differ.
+// Describes why retained variables are not saved at present; empty: they are, or the node does not run.
+std::string unsaved_text(const RunView& run);
+
+// Describes the modules that do not work, values that are not saved, other boards that are missing, and clocks that
+// differ.
 std::vector<std::string> trouble_now(const RunView& run, const std::optional<MirrorView>& mirror);
 
 }  // namespace indurop::tools

@@ -10,6 +10,7 @@
 #include "history/alarms/alarm_list.h"
 #include "scheduler/module_state_text.h"
 #include "tools/client/node/mirror_view.h"
+#include "tools/client/node/node_trouble.h"
 #include "tools/client/text/units.h"
 #include "tools/client/values/force_view.h"
 
@@ -54,6 +55,9 @@ void add_node(std::vector<Trouble>& all, const Board& board, const tools::RunVie
   }
   if (const std::string why = tools::printable(tools::fixed_text(block.obtained.why)); !why.empty()) {
     all.push_back({Severity::Note, "", fmt::format("not in real time: {}", why), {}});
+  }
+  if (const std::string text = tools::unsaved_text(run); !text.empty()) {
+    all.push_back({Severity::Error, "", text, {}});
   }
   const auto mirror = tools::view_mirror(board.name());
   if (mirror && !mirror->problem.empty()) {
