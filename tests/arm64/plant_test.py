@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """A plant of two architectures: the sensor board of examples/two_boards is this machine, its control board an ARM64 machine in
 QEMU (machine.py), and between them is a cable. The plant is deployed with a file for each; the loop closes through both; the
-ARM64 machine loses power, and a new one with an empty disk takes its place. As root, for a network of its own.
+ARM64 machine loses power, and a new one with an empty disk takes its place; a release of the platform is deployed to both, and
+taken back. As root, for a network of its own.
 plant_test.py BUILD BUILD-ARM64"""
 
 import contextlib
 import ctypes
 import fcntl
+import json
 import os
 import pathlib
 import shutil
@@ -131,6 +133,25 @@ class TwoArchitectures(unittest.TestCase):
         self.until("the fallback of the torque", lambda: self.value("torque") == 0)
         type(self).machine = self.power_on()
         self.until("the controller", lambda: (self.value("echo") or 0) > seen + 50)
+        self.loop_closes()
+
+    def releases(self):
+        said = self.run_tool("platform", "status", "--interface", "wire", "-o", "json").stdout
+        return {board["board"]: (board["release"], board["state"]) for board in json.loads(said)["boards"]} if said else {}
+
+    def test_4_one_release_updates_both_boards_and_they_go_back(self):
+        self.until("both boards", lambda: set(self.releases()) == {"x86", "arm"})
+        before = self.releases()
+        release = str(self.folder / "next.release")
+        packed = self.run_tool("platform", "pack", str(build), str(arm64), "--release-version", "99.1", "-o", release)
+        self.assertIn("release 99.1 for amd64 and arm64", packed.stdout + packed.stderr)
+        patience = ("--interface", "wire", "--health", "20s", "--timeout", "10min")
+        # As with the plant: a machine that is too slow goes back, and gets it again.
+        self.until("the release", lambda: "is committed" in self.run_tool("platform", "deploy", release, *patience).stdout)
+        self.until("the new release", lambda: self.releases() == {"x86": ("99.1", "running"), "arm": ("99.1", "running")})
+        self.loop_closes()
+        self.until("the way back", lambda: "is committed" in self.run_tool("platform", "back", *patience).stdout)
+        self.until("the old release", lambda: self.releases() == before)
         self.loop_closes()
 
 

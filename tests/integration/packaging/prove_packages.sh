@@ -80,6 +80,17 @@ check "an upgrade while a node runs says so, and the node goes on" inside sh -c 
   dpkg --force-depends -i /debs/next.deb >/tmp/up.log 2>&1; cat /tmp/up.log
   grep -q "go on with version" /tmp/up.log && indurop get --node up knu::Robot::tick && indurop stop --node up
   dpkg -i /debs/indurop_*.deb'
+check "an upgrade that is killed at any moment is completed by the next one, and the node goes on" inside sh -c '
+  cd /usr/lib/*/indurop/examples/chapter && INDUROP_STATE_DIR=/tmp/state indurop run module.xml --detach --node cut && cd / || exit 1
+  for after in 0.02 0.05 0.1 0.15 0.2 0.3 0.4 0.5 0.7 1; do
+    timeout -s KILL $after dpkg --force-depends -i /debs/next.deb >/dev/null 2>&1
+    timeout -s KILL $after dpkg -i /debs/indurop_*.deb >/dev/null 2>&1
+    indurop get --node cut knu::Robot::tick >/dev/null 2>&1 || cut=1
+  done
+  [ -z "$cut" ] || echo "while files were replaced, indurop was not there at least once"
+  dpkg --configure -a && dpkg -i /debs/indurop_*.deb && [ -z "$(dpkg --audit)$(dpkg -V indurop)" ] &&
+    first=$(indurop get --node cut knu::Robot::tick) && sleep 0.1 && [ "$(indurop get --node cut knu::Robot::tick)" != "$first" ] &&
+    indurop stop --node cut'
 check "a package removed while a node runs says so, and the node goes on" inside sh -c '
   cd /usr/lib/*/indurop/examples/chapter && INDUROP_STATE_DIR=/tmp/state indurop run module.xml --detach --node gone && cd /
   node=$(pgrep -f "indurop-node.*gone" 2>/dev/null || for p in /proc/[0-9]*; do case $(readlink $p/exe) in /usr/bin/indurop-node*) echo ${p#/proc/};; esac; done)

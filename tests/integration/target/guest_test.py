@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """The packages on a board as users have one: Debian with systemd and its PREEMPT_RT kernel in QEMU (indurop-lab --vm --bare).
-They are installed, a board is started as a service and deployed to. Its rights and filters, watchdogs, journal, a start before
-the network, and the removal of the package under a node that runs are checked, each by a program that is not ours. Needs root,
-QEMU, mmdebstrap and the packages of `make deb`. INDUROP_KEEP_GUEST names a lab that is there already, and stays."""
+They are installed, a board is started as a service and deployed to. Its rights and filters, watchdogs, journal, updates of the
+platform, a start before the network, a full disk, a wrong clock, and the removal of the package under a node that runs are checked,
+each by a program that is not ours. Needs root, QEMU, mmdebstrap and the packages of `make deb`. INDUROP_KEEP_GUEST names a lab that is there already, and stays."""
 
 import argparse
 import json
@@ -115,6 +115,9 @@ class OnTheTarget(unittest.TestCase):
         self.guest("indurop record --node board1 -q -o /tmp/some.mcap --duration 3s && indurop recording info /tmp/some.mcap")
 
     def test_04_it_has_its_rights_and_no_other(self):
+        self.has_its_rights()
+
+    def has_its_rights(self):
         rights = self.status()["rt"]
         self.assertEqual([rights[name] for name in ("fifo", "memory_locked", "cpu_dma_latency", "preempt_rt")], [True] * 4)
         for process in (self.agent(), self.status()["pid"]):
@@ -129,6 +132,9 @@ class OnTheTarget(unittest.TestCase):
         self.assertIn("FF 90", [" ".join(line.split()) for line in classes])
 
     def test_05_nothing_was_refused(self):
+        self.nothing_was_refused()
+
+    def nothing_was_refused(self):
         self.assertEqual(self.entries("-k -g 'type=1326'"), [])
         self.assertNotIn("SYS", self.guest(f"journalctl -q -u {UNIT} -g 'status=31|code=killed, status=.*SYS'", code=None))
         self.assertEqual(self.guest(f"systemctl show -P NRestarts {UNIT}").strip(), "0")
@@ -170,7 +176,43 @@ class OnTheTarget(unittest.TestCase):
             self.assertTrue([entry for entry in self.entries("-p err SYSLOG_IDENTIFIER=indurop-agent") if cause in entry["MESSAGE"]], cause)
             self.goes_on()
 
-    def test_09_a_machine_that_hangs_is_reset_and_the_plant_resumes_before_the_network(self):
+    def test_09_the_platform_is_updated_from_the_desk(self):
+        agent, node = self.agent(), self.status()["pid"]
+        self.guest("indurop platform pack /usr --release-version 99.1 -o /root/99.1.release")
+        # As with plants: a board that is too slow to be healthy in time goes back.
+        self.guest.until(lambda said: "is committed" in said,
+                         "indurop platform deploy /root/99.1.release --health 20s --timeout 10min 2>&1")
+        self.assertEqual(self.agent(), agent)
+        self.runs_release("99.1")
+        self.assertNotEqual(self.status()["pid"], node)
+        self.has_its_rights()
+        self.nothing_was_refused()
+
+    def test_10_a_release_whose_agent_hangs_is_left(self):
+        self.guest(f"mkdir /root/hanging && cp -rL {self.release_folder()}/. /root/hanging")
+        self.guest("cat >/root/hanging/bin/indurop-agent", stdin=options.hanging_agent.open("rb"))
+        self.guest("indurop platform pack /root/hanging --release-version 99.2 -o /root/99.2.release")
+        self.guest("systemctl service-watchdogs yes")  # 20 s here
+        said = self.guest("indurop platform deploy /root/99.2.release --health 20s --timeout 10min 2>&1", code=5)
+        print(said)
+        self.guest.until(lambda said: said.strip() == "active", f"systemctl is-active {UNIT}")
+        self.runs_release("99.1")
+
+    def release_folder(self):
+        node = self.status()["pid"]
+        return pathlib.PurePath(self.guest(f"readlink /proc/{node}/exe").strip()).parent.parent
+
+    def runs_release(self, version):
+        self.guest.until(lambda said: [(board["release"], board["state"]) for board in json.loads(said)["boards"]] == [(version, "running")],
+                         "indurop platform status -o json")
+        deployed = str(self.release_folder()).startswith("/var/lib/indurop/board1/platform/")
+        self.assertEqual(deployed, version != self.installed())
+        self.goes_on()
+
+    def installed(self):
+        return self.guest("dpkg-query -W -f '${Version}' indurop").strip()
+
+    def test_11_a_machine_that_hangs_is_reset_and_the_plant_resumes_before_the_network(self):
         self.guest("mkdir -p /etc/systemd/system.conf.d && printf '[Manager]\\nRuntimeWatchdogSec=60s\\n' "
                    ">/etc/systemd/system.conf.d/watchdog.conf && systemctl daemon-reexec")
         self.guest.until(lambda said: said.strip() == "active", "cat /sys/class/watchdog/watchdog0/state")
@@ -188,8 +230,48 @@ class OnTheTarget(unittest.TestCase):
         network = int(self.guest("systemctl show -P ActiveEnterTimestampMonotonic lab-board.service"))
         self.assertLess(node, network)
         self.guest.until(lambda said: "board1" in said, "indurop boards 2>&1")
+        self.runs_release("99.1")
 
-    def test_10_a_package_that_is_removed_says_what_goes_on(self):
+    def test_12_the_platform_goes_back(self):
+        self.guest.until(lambda said: "is committed" in said, "indurop platform back --health 20s --timeout 10min 2>&1")
+        self.runs_release(self.installed())
+        self.nothing_was_refused()
+
+    def test_13_a_full_disk_is_reported_and_stops_nothing(self):
+        as_board = "setpriv --reuid=indurop --regid=indurop --clear-groups"
+        self.guest(f"cd /var/lib/indurop && {as_board} sh -c 'fallocate -l $(df --output=avail -B1 . | tail -n 1) ballast; "
+                   "cat /dev/zero >>ballast' 2>&1 | grep -q 'No space left'")
+        why = "retained variables cannot be saved"
+        self.guest.until(lambda said: why in said, "indurop status --node board1 2>&1")
+        self.assertTrue([entry for entry in self.entries(f"-b -p err INDUROP_BOARD=board1 -g '{why}'")])
+        self.guest("cat >/root/plant/plant.xml", input=PLANT.replace("20ms", "30ms").encode())
+        for words in ("deploy /root/plant/plant.xml", "platform deploy /root/99.1.release"):
+            said = self.guest(f"indurop {words} --timeout 5min 2>&1", code=1)
+            self.assertIn("board1: disk full", said)
+        self.goes_on()
+        self.guest("rm /var/lib/indurop/ballast")
+        self.guest.until(lambda said: why not in said, "indurop status --node board1 2>&1")
+        self.guest.until(lambda said: "is committed" in said, "indurop deploy /root/plant/plant.xml --timeout 5min 2>&1")
+        self.goes_on()
+
+    def test_14_a_wrong_clock_stops_nothing(self):
+        """As a board without a battery has one until its clock is set."""
+        now = self.guest("date +%s").strip()
+        before = self.runs()
+        self.guest(f"timedatectl set-ntp false; date -s @60; systemctl restart {UNIT}")
+        self.goes_on()
+        self.assertGreater(self.runs(), before - 150)
+        self.assertEqual(self.guest("date +%Y").strip(), "1970")
+        self.guest("cat >/root/plant/plant.xml", input=PLANT.replace("20ms", "40ms").encode())
+        self.guest.until(lambda said: "is committed" in said, "indurop deploy /root/plant/plant.xml --timeout 5min 2>&1")
+        latest = self.status()["deployment"]
+        self.guest(f"date -s @{now}")
+        self.goes_on()
+        self.guest(f"systemctl restart {UNIT}")
+        self.goes_on()
+        self.assertEqual(self.status()["deployment"], latest)
+
+    def test_15_a_package_that_is_removed_says_what_goes_on(self):
         node = self.status()["pid"]
         said = self.guest("DEBIAN_FRONTEND=noninteractive apt-get remove -y indurop 2>&1")
         self.assertIn("these go on without their files", said)
@@ -199,13 +281,13 @@ class OnTheTarget(unittest.TestCase):
         self.guest("cd /root/debs && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends ./indurop_*.deb")
         self.assertEqual(self.status()["pid"], node)
 
-    def test_11_systemd_has_little_to_say_against_the_service(self):
+    def test_16_systemd_has_little_to_say_against_the_service(self):
         said = self.guest(f"systemd-analyze security --no-pager {UNIT}")
         exposure = float(re.search(r"Overall exposure level.*?: ([\d.]+)", said).group(1))
         print(f"systemd-analyze security: {exposure}")
         self.assertLessEqual(exposure, 3.0)
 
-    def test_12_it_stops_by_command(self):
+    def test_17_it_stops_by_command(self):
         self.guest(f"systemctl stop {UNIT}")
         self.assertIn("stopped", self.guest("indurop status --node board1 2>&1", code=None))
         self.assertEqual(self.guest(f"systemctl is-failed {UNIT}", code=None).strip(), "inactive")
@@ -216,6 +298,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--bin", type=pathlib.Path, required=True)
     parser.add_argument("--module", type=pathlib.Path, required=True)
+    parser.add_argument("--hanging-agent", type=pathlib.Path, required=True)
     parser.add_argument("--debs", type=pathlib.Path, required=True)
     options, rest = parser.parse_known_args()
     missing = [tool for tool in ("qemu-system-x86_64", "mmdebstrap", "ssh", "ip") if not shutil.which(tool)]
