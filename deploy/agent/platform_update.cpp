@@ -214,12 +214,12 @@ void PlatformUpdate::note_alive(rt::MonoTime now) {
   }
 }
 
-bool PlatformUpdate::note_switch() {
+std::string PlatformUpdate::note_switch() {
   const auto written = save_switch(state_.folder(), *last_);
   if (!written) {
     log_.error("{}", written.error().text);
   }
-  return written.ok();
+  return written ? std::string() : written.error().text;
 }
 
 void PlatformUpdate::perform(Do what, rt::MonoTime now) {
@@ -290,8 +290,8 @@ void PlatformUpdate::prepare_switch() {
   const Order& order = transaction_.order();
   log_.info("release {}: switching", title_of(order.deployment));
   last_ = LastSwitch{order, transaction_.joining(), self_, rt::wall_ns(), 0, {}, version_of(kInstalledRelease)};
-  if (!note_switch()) {
-    perform(transaction_.node("the switch cannot be noted on the disk", {}, rt::MonoClock::now()),
+  if (const std::string problem = note_switch(); !problem.empty()) {
+    perform(transaction_.node("the switch cannot be noted: " + problem, {}, rt::MonoClock::now()),
             rt::MonoClock::now());
     return;
   }

@@ -63,7 +63,7 @@ class PlatformUpdate {
   void commit(const Order& order);
   void go_back(const Order& order);
   void note_alive(rt::MonoTime now);
-  bool note_switch();
+  std::string note_switch();  // returns why it failed; empty: it is noted
   [[nodiscard]] BoardReport report() const;
   [[nodiscard]] std::string message() const;
   [[nodiscard]] std::string version_of(const std::string& id) const;

@@ -30,6 +30,7 @@ TEST_F(Platform, All_boards_switch_together_and_back) {
   const Outcome done = update(packed("9.1"));
   ASSERT_EQ(done.code, 0) << done.err << agent("a").err();
   EXPECT_THAT(done.err, HasSubstr("its node stood for "));
+  EXPECT_GT(done.json()["boards"][0]["fetched_bytes"], 100'000);
   EXPECT_TRUE(both_run("9.1"));
   EXPECT_TRUE(runs("a", deployment_)) << "the plant is the same";
   EXPECT_NE(vars::running_node(board("a")), before);

@@ -129,6 +129,7 @@ class Run {
         continue;
       }
       Shown& shown = shown_[board];
+      shown.fetched = std::max(shown.fetched, report.bytes_done);  // the agent of a new release begins at 0
       const bool fetching = report.phase == deploy::Phase::Fetching && report.bytes > 0;
       if (report.phase == shown.phase && (!fetching || now - shown.at < kProgress)) {
         continue;
@@ -143,7 +144,8 @@ class Run {
       if (!report.message.empty()) {
         line += "  " + printable(report.message);
       }
-      shown = {report.phase, now};
+      shown.phase = report.phase;
+      shown.at = now;
       if (!context_.out.quiet()) {
         context_.out.message_line(line);
       }
@@ -167,13 +169,15 @@ class Run {
     for (const std::string& board : deployment_.order.boards) {
       const auto found = transaction_.reports().find(board);
       const deploy::BoardReport report = found == transaction_.reports().end() ? deploy::BoardReport{} : found->second;
+      const auto shown = shown_.find(board);
+      const std::uint64_t fetched = shown == shown_.end() ? 0 : shown->second.fetched;
       const auto reason = transaction_.reasons().find(board);
       const std::string why = reason == transaction_.reasons().end() ? "" : printable(reason->second);
       table.add({Cell(board, Style::Bold),
                  Cell(report.host),
                  {report.current.empty() ? "-" : deploy::shown_id(report.current), report.current},
                  Cell(deploy::to_text(report.node)),
-                 {human_bytes(report.bytes_done), report.bytes_done},
+                 {human_bytes(fetched), fetched},
                  Cell(why, why.empty() ? Style::None : Style::Bad)});
     }
     return table;
@@ -235,6 +239,7 @@ class Run {
   struct Shown {
     deploy::Phase phase = deploy::Phase::Steady;
     rt::MonoTime at;
+    std::uint64_t fetched = 0;  // bytes
   };
 
   Context& context_;
