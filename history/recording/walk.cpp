@@ -102,7 +102,6 @@ class Walk {
       case Opcode::Attachment: {
         // Its bytes are not needed, only the fields before them.
         McapAttachment about;
-        LongBytes data;
         const View begin = content(head, kPortion);
         const auto size = [&] {
           FieldReader reader(begin);

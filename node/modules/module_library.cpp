@@ -74,7 +74,7 @@ bool is_read_only_now(const dl_phdr_info& info, std::uintptr_t page, std::uintpt
 }
 
 // AddressSanitizer forbids what it has put between variables.
-[[gnu::no_sanitize("address")]] void touch(const dl_phdr_info& info) {
+__attribute__((no_sanitize("address"))) void touch(const dl_phdr_info& info) {
   const auto page_bytes = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
   for (const ElfW(Phdr) & part : std::span(info.dlpi_phdr, info.dlpi_phnum)) {
     const std::uintptr_t begin = info.dlpi_addr + part.p_vaddr;

@@ -9,7 +9,7 @@
 
 namespace indurop::tape {
 
-[[gnu::no_sanitize("thread")]] void copy_racing(std::byte* to, const void* from, std::size_t size) noexcept {
+__attribute__((no_sanitize("thread"))) void copy_racing(std::byte* to, const void* from, std::size_t size) noexcept {
   const auto* const bytes = static_cast<const volatile std::byte*>(from);
   std::size_t i = 0;
   for (; i < size && (reinterpret_cast<std::uintptr_t>(from) + i) % sizeof(std::uint64_t) != 0; ++i) {

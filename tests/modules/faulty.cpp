@@ -26,7 +26,7 @@ void segv() {
 }
 volatile int number = 1000;
 volatile int zero = 0;
-[[gnu::no_sanitize("integer-divide-by-zero")]] void fpe() {
+__attribute__((no_sanitize("integer-divide-by-zero"))) void fpe() {
 #if defined(__x86_64__)
   number = number / zero;
 #else

@@ -9,10 +9,10 @@ namespace {
 constexpr std::size_t kWordBytes = sizeof(std::uint64_t);
 
 // Another thread may write meanwhile.
-[[gnu::no_sanitize("thread")]] std::uint64_t read_racing(const std::uint64_t* word) noexcept {
+__attribute__((no_sanitize("thread"))) std::uint64_t read_racing(const std::uint64_t* word) noexcept {
   return *static_cast<const volatile std::uint64_t*>(word);
 }
-[[gnu::no_sanitize("thread")]] void write_racing(const std::uint64_t* word, std::uint64_t value) noexcept {
+__attribute__((no_sanitize("thread"))) void write_racing(const std::uint64_t* word, std::uint64_t value) noexcept {
   auto* const to =
       const_cast<std::uint64_t*>(word);  // NOLINT(cppcoreguidelines-pro-type-const-cast): of a block that changes
   *static_cast<volatile std::uint64_t*>(to) = value;

@@ -53,7 +53,7 @@ class ByteWriter {
   // Writes numbers one after the other; ByteReader::get_all() reads the same.
   template <class... T>
   void put_all(const std::tuple<T&...>& numbers) {
-    std::apply([this](const auto&... each) { (put(each), ...); }, numbers);
+    std::apply([&](const auto&... each) { (put(each), ...); }, numbers);
   }
   void put_bytes(std::span<const std::uint8_t> bytes) {
     put(static_cast<std::uint32_t>(bytes.size()));
@@ -81,7 +81,7 @@ class ByteReader {
   }
   template <class... T>
   void get_all(const std::tuple<T&...>& numbers) noexcept {
-    std::apply([this](auto&... each) { ((each = get<std::remove_cvref_t<decltype(each)>>()), ...); }, numbers);
+    std::apply([&](auto&... each) { ((each = get<std::remove_cvref_t<decltype(each)>>()), ...); }, numbers);
   }
   std::span<const std::uint8_t> get_bytes() noexcept { return next(get<std::uint32_t>()); }
   std::string get_text() {
