@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <array>
 #include <cerrno>
 
 #include "core/base/descriptor.h"
@@ -29,6 +29,20 @@ std::optional<Damage> compare(const fs::path& file, const std::string& name, con
     return std::nullopt;
   }
   return Damage{file, name, expected, found ? found->digest : std::string{}};
+}
+
+// Copies some bytes from the places of both files on. Returns how many; -1: errno says why it failed.
+ssize_t copy_part(int from, int to) {
+  std::array<char, 65536> part{};
+  const ssize_t size = ::read(from, part.data(), part.size());
+  for (ssize_t written = 0; written < size;) {
+    const ssize_t done = ::write(to, part.data() + written, static_cast<std::size_t>(size - written));
+    if (done < 0) {
+      return -1;
+    }
+    written += done;
+  }
+  return size;
 }
 
 }  // namespace
@@ -91,18 +105,20 @@ Result<void, Problem> clone_file(const fs::path& from, const fs::path& to) {
     return Problem{base::cannot_write(to, base::file_problem(errno))};
   }
   std::uint64_t left = opened->size;
-  ssize_t copied = 1;
-  while (left > 0 && copied > 0) {
-    copied = ::copy_file_range(opened->file.get(), nullptr, out.get(), nullptr, left, 0);
-    left -= static_cast<std::uint64_t>(std::max<ssize_t>(copied, 0));
+  while (left > 0) {
+    ssize_t copied = ::copy_file_range(opened->file.get(), nullptr, out.get(), nullptr, left, 0);
+    if (copied < 0 && errno != ENOSPC) {  // these file systems cannot
+      copied = copy_part(opened->file.get(), out.get());
+    }
+    if (copied < 0) {
+      return Problem{base::cannot_write(to, base::file_problem(errno))};
+    }
+    if (copied == 0) {
+      return Problem{base::cannot_read(from, base::file_problem(ENODATA))};  // it has become shorter
+    }
+    left -= static_cast<std::uint64_t>(copied);
   }
-  if (left == 0) {
-    return {};
-  }
-  std::error_code error;
-  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
-  return error ? Result<void, Problem>(Problem{base::cannot_write(to, base::file_problem(error.value()))})
-               : Result<void, Problem>();
+  return {};
 }
 
 }  // namespace indurop::deploy
