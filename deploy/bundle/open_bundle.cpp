@@ -15,6 +15,7 @@
 
 #include "core/archives/archive.h"
 #include "core/base/json.h"
+#include "core/base/new_file.h"
 #include "core/base/read_file.h"
 #include "core/keys/digest.h"
 #include "deploy/bundle/bundle.h"
@@ -39,6 +40,16 @@ class BundleReader : public archives::ArchiveReader {
  private:
   std::filesystem::path file_;
 };
+
+Result<void, base::FileProblem> copy_content(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::ifstream in(from, std::ios::binary);
+  base::NewFile out(to);
+  std::array<char, 65536> part{};
+  do {
+    in.read(part.data(), part.size());
+  } while (out.write({part.data(), static_cast<std::size_t>(in.gcount())}) && in.good());
+  return out.close();
+}
 
 // Creates the file of one member at the first of `places`; the others get a copy. Returns false if it cannot be
 // written, or if its content is not what the package says.
@@ -79,17 +90,16 @@ class Unpacking {
     const std::filesystem::path place = folder_ / first.path;
     std::error_code error;
     std::filesystem::create_directories(place.parent_path(), error);
-    std::ofstream to(place, std::ios::binary | std::ios::trunc);
+    base::NewFile to(place);
     keys::Digest digest;
     std::uint64_t size = 0;
     const bool read = bundle_.read(first.size, [&](std::string_view bytes) {
       digest.add({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
       size += bytes.size();
-      return to.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).good();
+      return to.write(bytes);
     });
-    to.close();
-    if (!to.good()) {
-      return bundle_.problem(fmt::format("cannot write {}", place.string()));
+    if (const auto written = to.close(); !written) {
+      return bundle_.problem(base::cannot_write(place, written.error()));
     }
     if (!read || size != first.size || digest.finish() != first.digest) {
       return bundle_.problem(fmt::format("{} is damaged in the bundle; copy or pack it again", first.path));
@@ -105,7 +115,9 @@ class Unpacking {
       std::error_code error;
       if (place != first) {
         std::filesystem::create_directories(place.parent_path(), error);
-        std::filesystem::copy_file(first, place, error);
+        if (const auto copied = copy_content(first, place); !copied) {
+          return bundle_.problem(base::cannot_write(place, copied.error()));
+        }
       }
       if (!error) {
         std::filesystem::permissions(

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <optional>
 #include <utility>
 
 #include "core/archives/archive.h"
 #include "core/base/file_problem.h"
+#include "core/base/new_file.h"
 #include "core/base/read_file.h"
 #include "deploy/transaction/package.h"
 
@@ -64,17 +64,17 @@ Result<OpenedProject, Problem> open_project(const std::filesystem::path& archive
     const std::filesystem::path place = folder / path;
     std::error_code error;
     std::filesystem::create_directories(place.parent_path(), error);
-    std::ofstream to(place, std::ios::binary | std::ios::trunc);
-    const bool read = in.read(kMaxFileBytes, [&](std::string_view bytes) {
-      return to.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).good();
-    });
-    to.close();
+    base::NewFile to(place);
+    const bool read = in.read(kMaxFileBytes, [&](std::string_view bytes) { return to.write(bytes); });
+    if (const auto written = to.close(); !written) {
+      return Problem{base::cannot_write(place, written.error())};
+    }
     if (in.is_executable()) {
       std::filesystem::permissions(place, perms::owner_exec | perms::group_exec | perms::others_exec,
                                    std::filesystem::perm_options::add, error);
     }
-    if (!to.good() || error) {
-      return Problem{fmt::format("cannot write {}", place.string())};
+    if (error) {
+      return Problem{fmt::format("cannot write {}: {}", place.string(), error.message())};
     }
     if (!read) {
       return damaged(archive);

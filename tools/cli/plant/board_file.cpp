@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
+#include "core/base/new_file.h"
 #include "core/rt/clock.h"
 #include "deploy/transaction/blob_fetch.h"
 #include "tools/client/process/interrupt.h"
@@ -19,10 +18,11 @@ constexpr std::int64_t kFilePollNs = 20'000'000;
 
 Result<void, Failure> fetch_file(deploy::DeployLink& link, std::uint64_t self, const BoardFile& file,
                                  const std::filesystem::path& to) {
-  std::ofstream out(to, std::ios::binary | std::ios::trunc);
+  base::NewFile out(to);
+  bool writable = true;
   deploy::BlobFetch fetch(file.bytes, 0, link.room());
   std::int64_t moved = rt::now_ns();
-  while (!fetch.complete() && out.good()) {
+  while (!fetch.complete() && writable) {
     if (interrupted()) {
       return Failure{interrupt_code(), "interrupted"};
     }
@@ -41,13 +41,13 @@ Result<void, Failure> fetch_file(deploy::DeployLink& link, std::uint64_t self, c
         return Failure{kFailed, fmt::format("{} is not on board {} any more", file.blob, file.board)};
       }
       if (fetch.take(chunk.offset, chunk.data.size(), rt::MonoClock::now())) {
-        out.write(reinterpret_cast<const char*>(chunk.data.data()), static_cast<std::streamsize>(chunk.data.size()));
+        writable = out.write({reinterpret_cast<const char*>(chunk.data.data()), chunk.data.size()});
         moved = rt::now_ns();
       }
     }
   }
-  out.close();
-  return out.good() ? Result<void, Failure>() : Failure{kFailed, fmt::format("{} cannot be written", to.string())};
+  const auto written = out.close();
+  return written ? Result<void, Failure>() : Failure{kFailed, base::cannot_write(to, written.error())};
 }
 
 }  // namespace indurop::tools

@@ -26,7 +26,7 @@ class Job_push : public testing::Test {
       values[names[i]] = &sut->cell.values[i];
     }
     ask(Service::GroupEnable);
-    ASSERT_TRUE(sut->until([&] { return sut->cell.out.state == GroupState::Standby; }));
+    ASSERT_TRUE(sut->until([&, wanted = std::abs(torque)] { return sut->cell.out.state == GroupState::Standby; }));
     sut->run(0.3);
     sut->wall = {sut->q + way * 0.1, way};
     from = sut->q;
@@ -38,7 +38,7 @@ class Job_push : public testing::Test {
   [[nodiscard]] std::string message() const { return sut->cell.out.job.message; }
   [[nodiscard]] bool pushes() const { return sut->now() == AxisState::ContinuousMotion; }
   void expect_end() {
-    ASSERT_TRUE(sut->until([&] { return ended(); }, 20'000)) << message();
+    ASSERT_TRUE(sut->until([&, wanted = std::abs(torque)] { return ended(); }, 20'000)) << message();
     EXPECT_EQ(sut->cell.out.error, ErrorCode::Ok) << message();
     EXPECT_EQ(sut->broken, "");
     EXPECT_EQ(sut->commanded().mode, 8);
@@ -59,11 +59,11 @@ TEST_F(Job_push, Pushes_with_what_is_asked_for_and_returns) {
     double most = 0;
     double last = 0;
     int held = 0;
-    ASSERT_TRUE(sut->until([&] {
+    ASSERT_TRUE(sut->until([&, wanted = std::abs(torque)] {
       if (pushes()) {
         most = std::max(most, std::abs(sut->commanded_torque()));
         last = sut->against_wall();
-        held += std::abs(sut->commanded_torque()) > std::abs(torque) - kStep ? 1 : 0;
+        held += std::abs(sut->commanded_torque()) > wanted - kStep ? 1 : 0;
       }
       return *values["OUT"] > 0 || ended();
     })) << message();

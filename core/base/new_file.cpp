@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/base/new_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace indurop::base {
+
+NewFile::NewFile(const std::filesystem::path& path) noexcept
+    : file_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)),
+      error_(file_.is_open() ? 0 : errno) {}
+
+bool NewFile::write(std::string_view bytes) noexcept {
+  while (error_ == 0 && !bytes.empty()) {
+    const ssize_t written = ::write(file_.get(), bytes.data(), bytes.size());
+    if (written >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      error_ = errno;
+    }
+  }
+  return error_ == 0;
+}
+
+Result<void, FileProblem> NewFile::close() {
+  if (file_.close() != 0 && error_ == 0) {
+    error_ = errno;
+  }
+  return error_ == 0 ? Result<void, FileProblem>() : Result<void, FileProblem>(file_problem(error_));
+}
+
+}  // namespace indurop::base
