@@ -26,7 +26,7 @@ class Job_push : public testing::Test {
       values[names[i]] = &sut->cell.values[i];
     }
     ask(Service::GroupEnable);
-    ASSERT_TRUE(sut->until([&, wanted = std::abs(torque)] { return sut->cell.out.state == GroupState::Standby; }));
+    ASSERT_TRUE(sut->until([&] { return sut->cell.out.state == GroupState::Standby; }));
     sut->run(0.3);
     sut->wall = {sut->q + way * 0.1, way};
     from = sut->q;
@@ -38,7 +38,7 @@ class Job_push : public testing::Test {
   [[nodiscard]] std::string message() const { return sut->cell.out.job.message; }
   [[nodiscard]] bool pushes() const { return sut->now() == AxisState::ContinuousMotion; }
   void expect_end() {
-    ASSERT_TRUE(sut->until([&, wanted = std::abs(torque)] { return ended(); }, 20'000)) << message();
+    ASSERT_TRUE(sut->until([&] { return ended(); }, 20'000)) << message();
     EXPECT_EQ(sut->cell.out.error, ErrorCode::Ok) << message();
     EXPECT_EQ(sut->broken, "");
     EXPECT_EQ(sut->commanded().mode, 8);

@@ -53,16 +53,16 @@ constexpr std::array<Number, 11> kNumbers{{{"bool", 1, false},
 struct Shape {
   enum class Kind { Number, Text, Enum, Struct, Array };
   Kind kind = Kind::Number;
-  int number = 0;                                    // Number: index in kNumbers
-  std::size_t size = 1;                              // Text: bytes; Array: elements
-  std::vector<std::string> names;                    // Enum
-  std::vector<std::pair<std::string, Shape>> parts;  // Struct: fields; Array: one, without a name
+  int number = 0;                                      // Number: index in kNumbers
+  std::size_t size = 1;                                // Text: bytes; Array: elements
+  std::vector<std::string> names;                      // Enum
+  std::vector<std::pair<std::string, Shape>> parts{};  // Struct: fields; Array: one, without a name
 };
 
 // A value as text; of structs and arrays its parts.
 struct Value {
   std::string text;
-  std::vector<std::pair<std::string, Value>> parts;
+  std::vector<std::pair<std::string, Value>> parts{};
 };
 
 class Random {
