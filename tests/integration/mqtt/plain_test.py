@@ -42,8 +42,10 @@ def test_selected_values_with_a_deadband(setting):
     setting.start_node()
     server = setting.start_server("--write", "--token-file", setting.tokens)
     setting.start_broker()
+    client = setting.subscribe("p/#")
+    # What is not retained and does not change again is seen only by who is there.
+    wait_for(lambda: setting.publish("p/there", "") or client.all("p/there"), "the subscription")
     setting.start_door(server, "--variables", "gain", "--variables", "press::*", "--deadband", "*gain=1", "--topic", "p", "--no-retain")
-    client = setting.subscribe("p/#", options=["-v"])
     topic = f"p/{setting.node}/values/knu/Robot/gain"
     set_gain = lambda value: server.post(f"{API}/boards/{setting.node}/set", {"values": {"gain": value, "press::oil": value}})
     oil = f"p/{setting.node}/values/press/oil"
@@ -54,7 +56,7 @@ def test_selected_values_with_a_deadband(setting):
     assert client.last(topic) is not None
     assert [json.loads(payload)["value"] for _, payload, _ in client.all(topic) if json.loads(payload)["value"] != 1] == [3]
     assert {name for name, _, _ in client.all()} == {topic, oil, f"p/{setting.node}/values/press/door_open", "p/online",
-                                                     f"p/{setting.node}/alive"}
+                                                     f"p/{setting.node}/alive", "p/there"}
     assert not any(retained for name, _, retained in client.all() if "/values/" in name)
 
 
