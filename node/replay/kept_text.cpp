@@ -84,15 +84,15 @@ std::optional<std::string> special_text(std::string_view type, std::span<const s
     std::memcpy(&ns, bytes.data(), sizeof ns);
     return base::format_duration(base::Nanos(ns));
   }
-  if (type.starts_with("STRING[") || type.starts_with("char [")) {
+  if (type.starts_with("STRING[") || type.starts_with("char [") || type.starts_with("char[")) {
     const auto* const begin = reinterpret_cast<const char*>(bytes.data());
     return fmt::format("\"{}\"", std::string_view(begin, ::strnlen(begin, bytes.size())));
   }
   return std::nullopt;
 }
 
-// Returns the type of an element, if `type` is an array with one dimension: "int [4]", "std::array<int, 4>",
-// "ARRAY[0..3] OF INT". Of several dimensions, the elements are listed one after the other.
+// Returns the type of an element, if `type` is an array with one dimension: "int [4]" (GCC), "int[4]" (Clang),
+// "std::array<int, 4>", "ARRAY[0..3] OF INT". Of several dimensions, the elements are listed one after the other.
 std::optional<std::string_view> element_of(std::string_view type) {
   constexpr std::string_view kStandard = "std::array<";
   if (type.starts_with("ARRAY[")) {
@@ -104,9 +104,11 @@ std::optional<std::string_view> element_of(std::string_view type) {
     return comma == std::string_view::npos ? std::nullopt
                                            : std::optional(type.substr(kStandard.size(), comma - kStandard.size()));
   }
-  const std::size_t bracket = type.find(" [");
-  return type.ends_with(']') && bracket != std::string_view::npos ? std::optional(type.substr(0, bracket))
-                                                                  : std::nullopt;
+  const std::size_t bracket = type.find('[');
+  if (!type.ends_with(']') || bracket == std::string_view::npos) {
+    return std::nullopt;
+  }
+  return type.substr(0, bracket > 0 && type[bracket - 1] == ' ' ? bracket - 1 : bracket);
 }
 
 std::optional<std::size_t> size_of_type(std::string_view type) {

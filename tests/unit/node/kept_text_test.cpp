@@ -38,6 +38,9 @@ TEST(KeptText, Arrays_are_listed) {
   EXPECT_EQ(shown(std::array<int, 3>{1, -2, 3}), "[1, -2, 3]");
   const double numbers[2] = {0.5, 2};  // NOLINT(modernize-avoid-c-arrays): as modules declare them
   EXPECT_EQ(shown(numbers), "[0.5, 2]");
+  EXPECT_EQ(shown(numbers, "double [2]"), "[0.5, 2]") << "as GCC writes it";
+  EXPECT_EQ(shown(numbers, "double[2]"), "[0.5, 2]") << "as Clang writes it";
+  EXPECT_EQ(shown(std::array<char, 6>{'a', 'b', 0}, "char[6]"), "\"ab\"");
   EXPECT_EQ(shown(std::array<std::uint16_t, 2>{7, 8}, "ARRAY[1..2] OF UINT"), "[7, 8]");
 }
 
