@@ -33,9 +33,9 @@ std::string text_of(const Parts&... parts) {
 }
 
 struct Number {
-  const char* name;
-  int bits;
-  bool is_signed;
+  const char* name = "";
+  int bits = 0;
+  bool is_signed = false;
   bool real = false;
 };
 constexpr std::array<Number, 11> kNumbers{{{"bool", 1, false},
