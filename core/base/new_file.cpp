@@ -21,7 +21,7 @@ bool NewFile::write(std::string_view bytes) noexcept {
       error_ = errno;
     }
   }
-  return error_ == 0;
+  return good();
 }
 
 Result<void, FileProblem> NewFile::close() {

@@ -18,7 +18,9 @@ class NewFile {
  public:
   // Creates the file, or empties it.
   explicit NewFile(const std::filesystem::path& path) noexcept;
-  // Returns false if this or anything before it failed.
+  // Returns false if anything failed.
+  [[nodiscard]] bool good() const noexcept { return error_ == 0; }
+  // Returns good().
   bool write(std::string_view bytes) noexcept;
   // Closes the file. Returns the first error of all. Errors: System.
   Result<void, FileProblem> close();

@@ -19,10 +19,9 @@ constexpr std::int64_t kFilePollNs = 20'000'000;
 Result<void, Failure> fetch_file(deploy::DeployLink& link, std::uint64_t self, const BoardFile& file,
                                  const std::filesystem::path& to) {
   base::NewFile out(to);
-  bool writable = true;
   deploy::BlobFetch fetch(file.bytes, 0, link.room());
   std::int64_t moved = rt::now_ns();
-  while (!fetch.complete() && writable) {
+  while (!fetch.complete() && out.good()) {
     if (interrupted()) {
       return Failure{interrupt_code(), "interrupted"};
     }
@@ -41,7 +40,7 @@ Result<void, Failure> fetch_file(deploy::DeployLink& link, std::uint64_t self, c
         return Failure{kFailed, fmt::format("{} is not on board {} any more", file.blob, file.board)};
       }
       if (fetch.take(chunk.offset, chunk.data.size(), rt::MonoClock::now())) {
-        writable = out.write({reinterpret_cast<const char*>(chunk.data.data()), chunk.data.size()});
+        out.write({reinterpret_cast<const char*>(chunk.data.data()), chunk.data.size()});
         moved = rt::now_ns();
       }
     }

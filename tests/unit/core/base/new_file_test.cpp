@@ -33,6 +33,7 @@ TEST_F(NewFileTest, Tells_the_first_error) {
   ASSERT_FALSE(closed.ok());
   EXPECT_EQ(closed.error().sys_errno, ENOSPC);
   NewFile absent(at("no/such/folder"));
+  EXPECT_FALSE(absent.good()) << "before anything is written";
   EXPECT_FALSE(absent.write(""));
   EXPECT_EQ(absent.close().error().sys_errno, ENOENT);
 }
