@@ -2,9 +2,10 @@
 #include "core/base/new_file.h"
 
 #include <fcntl.h>
-#include <unistd.h>
 
 #include <cerrno>
+
+#include "core/base/write_all.h"
 
 namespace indurop::base {
 
@@ -13,13 +14,8 @@ NewFile::NewFile(const std::filesystem::path& path) noexcept
       error_(file_.is_open() ? 0 : errno) {}
 
 bool NewFile::write(std::string_view bytes) noexcept {
-  while (error_ == 0 && !bytes.empty()) {
-    const ssize_t written = ::write(file_.get(), bytes.data(), bytes.size());
-    if (written >= 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-    } else if (errno != EINTR) {
-      error_ = errno;
-    }
+  if (good()) {
+    error_ = write_all(file_.get(), bytes);
   }
   return good();
 }

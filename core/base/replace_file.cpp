@@ -15,6 +15,7 @@
 #include <string>
 
 #include "core/base/descriptor.h"
+#include "core/base/write_all.h"
 #include "core/rt/clock.h"
 
 namespace indurop::base {
@@ -26,18 +27,6 @@ using Done = Result<void, FileProblem>;
 
 constexpr int kMaxTries = 100;
 constexpr int kMaxLinks = 40;
-
-// Returns 0, or an errno.
-int write_all(int file, std::string_view bytes) noexcept {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno != EINTR) {
-      return errno;
-    }
-    bytes.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
-  }
-  return 0;
-}
 
 fs::path folder_of(const fs::path& path) {
   const fs::path folder = path.parent_path();

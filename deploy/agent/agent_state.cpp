@@ -3,17 +3,18 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <stdio.h>  // renameat2
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>  // renameat2
 #include <cstring>
 #include <set>
 #include <utility>
 
+#include "core/base/clone_file.h"
 #include "core/base/json.h"
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
@@ -220,7 +221,7 @@ Result<void, Problem> AgentState::lay_out(const Package& package, const fs::path
     if (!has(entry.digest)) {
       return Problem{fmt::format("{} is not on this board: {} is missing", entry.path, file(entry.digest).string())};
     }
-    if (auto copied = clone_file(file(entry.digest), name); !copied) {
+    if (auto copied = base::clone_file(file(entry.digest), name); !copied) {
       return copied;
     }
     if (::chmod(name.c_str(), entry.executable ? kProgramMode : kStateMode) != 0) {
@@ -261,7 +262,7 @@ Result<void, Problem> AgentState::install(const std::string& id) {
 }
 
 Result<void, Problem> AgentState::keep_copy(const fs::path& copy, const std::string& digest) {
-  auto copied = clone_file(copy, part(digest));
+  auto copied = base::clone_file(copy, part(digest));
   return copied ? keep(digest) : copied;
 }
 

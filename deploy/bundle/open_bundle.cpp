@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <string_view>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "core/archives/archive.h"
+#include "core/base/clone_file.h"
 #include "core/base/json.h"
 #include "core/base/new_file.h"
 #include "core/base/read_file.h"
@@ -40,16 +40,6 @@ class BundleReader : public archives::ArchiveReader {
  private:
   std::filesystem::path file_;
 };
-
-Result<void, base::FileProblem> copy_content(const std::filesystem::path& from, const std::filesystem::path& to) {
-  std::ifstream in(from, std::ios::binary);
-  base::NewFile out(to);
-  std::array<char, 65536> part{};
-  do {
-    in.read(part.data(), part.size());
-  } while (out.write({part.data(), static_cast<std::size_t>(in.gcount())}) && in.good());
-  return out.close();
-}
 
 // Creates the file of one member at the first of `places`; the others get a copy. Returns false if it cannot be
 // written, or if its content is not what the package says.
@@ -115,8 +105,8 @@ class Unpacking {
       std::error_code error;
       if (place != first) {
         std::filesystem::create_directories(place.parent_path(), error);
-        if (const auto copied = copy_content(first, place); !copied) {
-          return bundle_.problem(base::cannot_write(place, copied.error()));
+        if (const auto copied = base::clone_file(first, place); !copied) {
+          return bundle_.problem(copied.error().text);
         }
       }
       if (!error) {

@@ -6,10 +6,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
-
-#include "core/base/descriptor.h"
 #include "core/base/read_file.h"
 #include "core/keys/digest.h"
 #include "deploy/words/deployment_words.h"
@@ -21,7 +17,6 @@ namespace fs = std::filesystem;
 using base::Problem;
 
 constexpr std::size_t kFolderDigits = 16;
-constexpr mode_t kFileMode = 0640;
 
 std::optional<Damage> compare(const fs::path& file, const std::string& name, const std::string& expected) {
   const auto found = keys::digest_of_file(file);
@@ -29,20 +24,6 @@ std::optional<Damage> compare(const fs::path& file, const std::string& name, con
     return std::nullopt;
   }
   return Damage{file, name, expected, found ? found->digest : std::string{}};
-}
-
-// Copies some bytes from the places of both files on. Returns how many; -1: errno says why it failed.
-ssize_t copy_part(int from, int to) {
-  std::array<char, 65536> part{};
-  const ssize_t size = ::read(from, part.data(), part.size());
-  for (ssize_t written = 0; written < size;) {
-    const ssize_t done = ::write(to, part.data() + written, static_cast<std::size_t>(size - written));
-    if (done < 0) {
-      return -1;
-    }
-    written += done;
-  }
-  return size;
 }
 
 }  // namespace
@@ -93,32 +74,6 @@ std::optional<Damage> DeploymentFiles::damage_in(const std::string& id, const Pa
     }
   }
   return std::nullopt;
-}
-
-Result<void, Problem> clone_file(const fs::path& from, const fs::path& to) {
-  const auto opened = base::open_file(from);
-  if (!opened) {
-    return Problem{base::cannot_read(from, opened.error())};
-  }
-  const base::Descriptor out(::open(to.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kFileMode));
-  if (!out.is_open()) {
-    return Problem{base::cannot_write(to, base::file_problem(errno))};
-  }
-  std::uint64_t left = opened->size;
-  while (left > 0) {
-    ssize_t copied = ::copy_file_range(opened->file.get(), nullptr, out.get(), nullptr, left, 0);
-    if (copied < 0 && errno != ENOSPC) {  // these file systems cannot
-      copied = copy_part(opened->file.get(), out.get());
-    }
-    if (copied < 0) {
-      return Problem{base::cannot_write(to, base::file_problem(errno))};
-    }
-    if (copied == 0) {
-      return Problem{base::cannot_read(from, base::file_problem(ENODATA))};  // it has become shorter
-    }
-    left -= static_cast<std::uint64_t>(copied);
-  }
-  return {};
 }
 
 }  // namespace indurop::deploy

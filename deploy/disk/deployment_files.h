@@ -55,7 +55,4 @@ class DeploymentFiles {
   std::filesystem::path folder_;
 };
 
-// Makes a copy that shares its blocks with the original if the file system supports it. Replaces `to`.
-Result<void, base::Problem> clone_file(const std::filesystem::path& from, const std::filesystem::path& to);
-
 }  // namespace indurop::deploy

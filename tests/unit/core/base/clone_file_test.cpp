@@ -1,39 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/disk/deployment_files.h"
+#include "core/base/clone_file.h"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "core/base/read_file.h"
+#include "folder.h"
 
-namespace indurop::deploy {
+namespace indurop::base {
 namespace {
 
 using testing::HasSubstr;
 
-class CloneFile : public testing::Test {
+class CloneFile : public FolderTest {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   [[nodiscard]] std::filesystem::path file(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
+    std::ofstream(at(name)) << text;
+    return at(name);
   }
-
- private:
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("deployment_files_test." + std::to_string(::getpid()));
 };
 
 TEST_F(CloneFile, Replaces_what_is_there) {
   for (const std::string& text : {std::string(300'000, 'x'), std::string("short"), std::string()}) {
     const auto to = file("to", "older and longer than the new content");
     ASSERT_TRUE(clone_file(file("from", text), to).ok());
-    EXPECT_EQ(*base::read_file(to), text);
+    EXPECT_EQ(*read_file(to), text);
   }
 }
 
@@ -47,4 +41,4 @@ TEST_F(CloneFile, Names_the_cause) {
 }
 
 }  // namespace
-}  // namespace indurop::deploy
+}  // namespace indurop::base
