@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Real time, proven: schedules run in a machine with counted time (guest.py), idle and loaded, compared with cyclictest.
 Fails if a tick is lost, a module overruns or misses its deadline, a tick is later than cyclictest's latest + 1 us, or
-something takes 2 % more instructions than instructions.json says (INDUROP_UPDATE_GOLDEN=1 writes that file again).
-An EtherCAT bus with 33 drives at a pair of network interfaces is counted, too."""
+something takes 2 % (an exchange: 4 %) more instructions than instructions.json says (INDUROP_UPDATE_GOLDEN=1 writes that
+file again). An EtherCAT bus with 33 drives at a pair of network interfaces is counted, too."""
 
 import argparse
 import json
@@ -20,6 +20,9 @@ MORE_THAN_CYCLICTEST_NS = 1000
 # Two boards share the one processor: a tick waits for that of the other one, two switches and its modules.
 OTHER_BOARD_NS = 10_000
 MORE_INSTRUCTIONS = 1.02
+# Guests of the same build differ by steps of this size in all of their exchanges (one guest of fifty), probably by a switch
+# between the node and the slaves.
+STEP_OF_EXCHANGE = 2500
 WALL_PER_SECOND = 30  # of counted time, at most, on a busy host
 HOST_IS_BUSY = 1800  # seconds to boot: a limit for a guest that hangs, not for one that is slow
 SKIPPED = 77
@@ -162,8 +165,11 @@ def compare(found):
     if os.environ.get("INDUROP_UPDATE_GOLDEN"):
         EXPECTED.write_text(json.dumps(found, indent=2) + "\n")
     expected = json.loads(EXPECTED.read_text())
-    wrong = [f"{what}: {found.get(what)} instructions, {count} before"
-             for what, count in expected.items() if found.get(what, 1 << 60) > count * MORE_INSTRUCTIONS]
+    wrong = []
+    for what, count in expected.items():
+        limit = count * MORE_INSTRUCTIONS + (STEP_OF_EXCHANGE if what.startswith("exchange") else 0)
+        if found.get(what, 1 << 60) > limit:
+            wrong.append(f"{what}: {found.get(what)} instructions, {count} before")
     return wrong + [f"{what} is not in {EXPECTED.name}" for what in found if what not in expected]
 
 
