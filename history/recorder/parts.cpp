@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kShares = 8;               // number of parts in the kept data
 constexpr std::int64_t kPortionNs = 100'000'000;  // time taken before the next check whether the part is full
+constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();  // earlier than any run: they are only read
 
 fs::path part_of(const fs::path& path, std::uint64_t number) {
   fs::path part = path;
@@ -166,20 +167,36 @@ Result<void, Problem> Parts::begin_next() {
   return with_room([this] { return begin(number_); });
 }
 
-// Takes a limited time span, so that a part does not grow too large when there is much data at once, after a stall.
-Result<void, Problem> Parts::take_portion(std::int64_t until_ns) {
+Result<void, Problem> Parts::take_until(std::int64_t until_ns) {
   for (Recorder& recorder : recorders_) {
     if (auto taken = with_room([&recorder, until_ns] { return recorder.take(until_ns); }); !taken) {
       return taken;
     }
   }
+  return {};
+}
+
+// A part is begun only when there is a run for it: one without runs could not be replayed.
+Result<void, Problem> Parts::begin_next_if_needed() {
+  if (!part_is_full()) {
+    return {};
+  }
+  if (auto read = take_until(kNone); !read) {
+    return read;
+  }
+  return waiting_ns() ? begin_next() : Result<void, Problem>{};
+}
+
+// Takes a limited time span, so that a part does not grow too large when there is much data at once, after a stall.
+Result<void, Problem> Parts::take_portion(std::int64_t until_ns) {
+  if (auto begun = begin_next_if_needed(); !begun) {
+    return begun;
+  }
+  if (auto taken = take_until(until_ns); !taken) {
+    return taken;
+  }
   if (begin_ns_ == 0) {
     begin_ns_ = latest_ns();
-  }
-  if (part_is_full()) {
-    if (auto next = begin_next(); !next) {
-      return next;
-    }
   }
   remove_old_ones();
   return {};

@@ -76,6 +76,8 @@ class Parts {
   [[nodiscard]] std::int64_t latest_ns() const noexcept;
   Result<void, base::Problem> begin(std::uint64_t number);
   Result<void, base::Problem> begin_next();
+  Result<void, base::Problem> begin_next_if_needed();
+  Result<void, base::Problem> take_until(std::int64_t until_ns);
   Result<void, base::Problem> take_portion(std::int64_t until_ns);
   [[nodiscard]] std::optional<std::int64_t> waiting_ns() const noexcept;
   template <class Work>

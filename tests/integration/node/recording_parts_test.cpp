@@ -234,6 +234,20 @@ TEST_F(RecordingParts, A_recorder_that_is_stopped_reports_what_it_lost_and_distu
   EXPECT_CONTAINS(slow.err, std::to_string(lost) + " runs of counter") << "the numbers of the runs in the file say so";
 }
 
+// Each part is full when its runs were taken, the last one, too.
+TEST_F(RecordingParts, None_is_left_without_runs) {
+  Program& sut = start_and_wait(kPartsCounter);
+  ASSERT_TRUE(runs_reach("counter", 20));
+  const fs::path base = folder() / "full.mcap";
+  const Outcome recorded = indurop({"record", "-o", base.string(), "--split", "1ms", "--duration", "500ms"});
+  EXPECT_EQ(recorded.code, 0) << recorded.err;
+  for (const fs::path& part : parts(folder())) {
+    EXPECT_GT(runs_in(part), 0U) << part;
+  }
+  sut.signal(SIGTERM);
+  EXPECT_EQ(sut.wait(), 0);
+}
+
 TEST_F(RecordingParts, Two_recorders_have_the_same) {
   Program& sut = start_and_wait(kPartsCounter);
   const std::string first = (folder() / "first.mcap").string();
@@ -334,7 +348,8 @@ class RecordingPartsOnASmallDisk : public RecordingParts {
   }
   void each_can_be_replayed() const {
     for (const fs::path& part : parts(copies_)) {
-      EXPECT_EQ(replay(part).code, 0) << part;
+      const Outcome again = replay(part);
+      EXPECT_EQ(again.code, 0) << part << again.out << again.err;
     }
   }
 
