@@ -25,7 +25,8 @@ TEST_F(Rescheduled, Two_boards_take_over_in_one_tick_and_no_run_of_what_stays_is
   expect_not_restarted();
   for (const char* name : {"a", "b"}) {
     EXPECT_EQ(seen(name).schedule, 2U);
-    EXPECT_EQ(seen(name).left_out, 2 * seen(name).lost) << name;
+    const Seen now = seen(name);
+    EXPECT_LE(now.left_out, 2 * now.lost + now.overruns) << name;
     EXPECT_EQ(press(name).deployment, second);
     expect_as_said(name);
   }

@@ -237,8 +237,13 @@ TEST_F(Veth, Drives_before_a_pulled_one_keep_their_data) {
     const auto others_run = [&] { return sut.master().is_fresh(0) && sut.master().is_fresh(1); };
     ASSERT_TRUE(sut.run_until([&] { return !others_run() || !sut.master().is_fresh(2); }));
     EXPECT_TRUE(others_run());
+    const bool between_frames =
+        sut.master().is_fresh(3);  // the process data had passed it, the request for its state not
+    if (between_frames) {
+      sut.cycle();
+    }
     EXPECT_FALSE(sut.master().is_fresh(3));
-    EXPECT_EQ(count(sut.story(), "slave 2 (drive): wrong working counter"), 1U) << "in the tick in which it is gone";
+    EXPECT_EQ(count(sut.story(), "slave 2 (drive): wrong working counter"), between_frames ? 0U : 1U) << sut.story();
     ASSERT_TRUE(sut.run_until([&] { return !others_run() || !sut.master().slave(2).operates(); }));
     ASSERT_TRUE(sut.run_until([&] { return !others_run() || sut.all_operate(); })) << sut.story();
     EXPECT_TRUE(others_run()) << sut.story();
