@@ -13,9 +13,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 
 #include "core/base/spawn.h"
@@ -29,6 +32,36 @@ namespace {
 constexpr const char* kProgram = "indurop-node";
 constexpr std::chrono::microseconds kLook{20};
 constexpr std::chrono::seconds kEnd{5};
+constexpr std::string_view kStateVariable = "INDUROP_STATE_DIR=";
+
+// Returns empty if the user has chosen a folder.
+std::filesystem::path make_state_folder() {
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text = *variable;
+    if (text.starts_with(kStateVariable) && text != kStateVariable) {
+      return {};
+    }
+  }
+  std::string name = (std::filesystem::temp_directory_path() / "indurop-test-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) {
+    throw std::runtime_error(fmt::format("cannot make {}, the folder for the state of a node", name));
+  }
+  return name;
+}
+
+std::optional<std::vector<std::string>> environment_with_state(const std::filesystem::path& folder) {
+  if (folder.empty()) {
+    return std::nullopt;
+  }
+  std::vector<std::string> all;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    if (!std::string_view(*variable).starts_with(kStateVariable)) {
+      all.emplace_back(*variable);
+    }
+  }
+  all.push_back(std::string(kStateVariable) + folder.string());
+  return all;
+}
 
 }  // namespace
 
@@ -48,12 +81,28 @@ std::filesystem::path find_node_program() {
   return {};
 }
 
+void remove_orphans(std::string_view prefix) {
+  for (const std::string& node : vars::list_nodes()) {
+    const char* const end = node.data() + node.size();
+    pid_t owner = 0;
+    if (node.starts_with(prefix) && std::from_chars(node.data() + prefix.size(), end, owner).ec == std::errc() &&
+        owner > 0 && ::kill(owner, 0) != 0 && errno == ESRCH) {
+      (void)vars::remove_node(node);  // not if it runs: its owner may be in another container
+    }
+  }
+}
+
 NodeProcess::NodeProcess(const std::string& node, bool plant, const std::vector<std::string>& arguments,
                          std::chrono::seconds patience, const std::filesystem::path& program)
-    : node_(node), patience_(patience), output_(::memfd_create("output of a node", MFD_CLOEXEC)), plant_(plant) {
+    : node_(node),
+      patience_(patience),
+      output_(::memfd_create("output of a node", MFD_CLOEXEC)),
+      plant_(plant),
+      state_(make_state_folder()) {
   std::array<int, 2> ends{-1, -1};
   // A socket: a write to a node that has ended raises no signal in this process.
   if (output_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    end();
     throw std::runtime_error("cannot make a connection to a node");
   }
   commands_ = ends[1];
@@ -61,6 +110,7 @@ NodeProcess::NodeProcess(const std::string& node, bool plant, const std::vector<
   launch.words = {kProgram, "--sim", "--step", "--node", node};
   launch.words.insert(launch.words.end(), arguments.begin(), arguments.end());
   launch.program = program;
+  launch.environment = environment_with_state(state_);
   launch.input = ends[0];
   launch.output = output_;
   launch.fresh_signals = true;
@@ -98,6 +148,20 @@ void NodeProcess::end() noexcept {
   if (output_ >= 0) {
     ::close(output_);
   }
+  for (const std::string& node : nodes()) {
+    (void)vars::remove_node(node);
+  }
+  if (!state_.empty()) {
+    std::error_code ignored;
+    std::filesystem::remove_all(state_, ignored);
+  }
+}
+
+std::vector<std::string> NodeProcess::nodes() const {
+  std::vector<std::string> all = vars::list_nodes();
+  std::erase_if(all,
+                [this](const std::string& node) { return plant_ ? !node.starts_with(node_ + "-") : node != node_; });
+  return all;
 }
 
 bool NodeProcess::has_ended() {
@@ -124,17 +188,13 @@ void NodeProcess::find_boards() {
   if (plant_ && printed().find("tick 0, ") == std::string::npos) {
     return;
   }
-  const std::string prefix = node_ + "-";
-  for (const std::string& node : plant_ ? vars::list_nodes() : std::vector<std::string>{node_}) {
-    if (plant_ && !node.starts_with(prefix)) {
-      continue;
-    }
+  for (const std::string& node : nodes()) {
     auto opened = vars::RunFile::open(node, vars::Mode::ReadWrite, scheduler::kRunMagic, sizeof(scheduler::RunBlock));
     if (opened) {
       if (static_cast<scheduler::RunBlock*>(opened->data())->abi != scheduler::kRunAbi) {
         fail("indurop-node is of another version of InduRoP: make what uses it with the same version");
       }
-      boards_.push_back({plant_ ? node.substr(prefix.size()) : "", node, std::move(opened).value()});
+      boards_.push_back({plant_ ? node.substr(node_.size() + 1) : "", node, std::move(opened).value()});
     }
   }
   std::sort(boards_.begin(), boards_.end(), [](const Board& a, const Board& b) { return a.name < b.name; });

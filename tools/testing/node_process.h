@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scheduler/run_block.h"
@@ -22,11 +23,15 @@ namespace indurop::testing {
 // not there.
 std::filesystem::path find_node_program();
 
+// Removes the shared memory of nodes called `prefix`PID whose process PID was killed.
+void remove_orphans(std::string_view prefix);
+
 class NodeProcess {
  public:
   // Starts the node and waits until it has stopped before its first tick. `plant`: the configuration has several
   // boards, whose nodes are called `node`-BOARD. `program`: indurop-node; empty: the one in PATH. Throws
-  // std::runtime_error.
+  // std::runtime_error. Unless INDUROP_STATE_DIR is set, the state of the nodes (retained values, black boxes) is in a
+  // folder of its own, which is removed in the end, as their shared memory is.
   NodeProcess(const std::string& node, bool plant, const std::vector<std::string>& arguments,
               std::chrono::seconds patience, const std::filesystem::path& program);
   ~NodeProcess();
@@ -55,6 +60,7 @@ class NodeProcess {
  private:
   void wait_until_it_stands();
   void find_boards();
+  [[nodiscard]] std::vector<std::string> nodes() const;  // those that have memory
   void check_returned();
   [[nodiscard]] bool stands() const;
   bool has_ended();
@@ -66,7 +72,8 @@ class NodeProcess {
   int output_ = -1;
   pid_t pid_ = -1;
   bool plant_;
-  std::vector<Board> boards_;  // none before all of them have stopped at the first tick
+  std::filesystem::path state_;  // empty: the user's
+  std::vector<Board> boards_;    // none before all of them have stopped at the first tick
   std::uint64_t ticks_ = 0;
 };
 

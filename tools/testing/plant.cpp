@@ -34,9 +34,12 @@ namespace vars = indurop::vars;
 namespace scheduler = indurop::scheduler;
 using namespace std::chrono_literals;
 
+constexpr const char* kPrefix = "test-";
+
 std::string new_name() {
   static std::atomic<unsigned> count{0};
-  return fmt::format("test-{}-{}", ::getpid(), ++count);
+  indurop::testing::remove_orphans(kPrefix);
+  return fmt::format("{}{}-{}", kPrefix, ::getpid(), ++count);
 }
 
 std::vector<std::string> arguments_of(const std::filesystem::path& configuration, const Settings& settings) {
@@ -228,16 +231,7 @@ void Plant::Impl::go(std::uint64_t ticks) {
 Plant::Plant(const std::filesystem::path& configuration, const Settings& settings)
     : impl_(std::make_unique<Impl>(configuration, settings)) {}
 
-Plant::~Plant() {
-  std::vector<std::string> nodes;
-  for (const auto& board : impl_->node.boards()) {
-    nodes.push_back(board.node);
-  }
-  impl_.reset();
-  for (const std::string& node : nodes) {
-    (void)vars::remove_node(node);
-  }
-}
+Plant::~Plant() = default;
 
 void Plant::run(std::chrono::nanoseconds time) {
   const std::int64_t basic = impl_->node.basic_period_ns();

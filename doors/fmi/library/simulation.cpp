@@ -5,9 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
-#include <csignal>
 #include <cstddef>
 #include <stdexcept>
 #include <string_view>
@@ -35,18 +32,6 @@ std::string node_name(const void* instance) {
   return fmt::format("{}{}-{}", kPrefix, ::getpid(), digits);
 }
 
-// Removes the shared memory of nodes whose masters were killed.
-void remove_orphans() {
-  for (const std::string& node : vars::list_nodes()) {
-    const char* const end = node.data() + node.size();
-    pid_t master = 0;
-    if (node.starts_with(kPrefix) && std::from_chars(node.data() + kPrefix.size(), end, master).ec == std::errc() &&
-        master > 0 && ::kill(master, 0) != 0 && errno == ESRCH) {
-      (void)vars::remove_node(node);  // not if it runs: the master may be in another container
-    }
-  }
-}
-
 // The one where the FMU was made, if it is there. Not one near the FMU: it may lie in a folder that others can write.
 std::filesystem::path node_program(const std::filesystem::path& programs) {
   const std::filesystem::path program = programs / "indurop-node";
@@ -59,10 +44,9 @@ Simulation::Simulation(const Resources& resources)
     : name_(node_name(this)),
       node_(name_, resources.contents.plant, {"--", resources.configuration().string()}, kPatience,
             node_program(resources.contents.programs)) {
-  remove_orphans();
+  testing::remove_orphans(kPrefix);
   std::vector<schema::PlaceIndex> indices;
   for (const auto& board : node_.boards()) {
-    remains_.nodes.push_back(board.node);
     auto attached = vars::Store::attach(board.node, vars::Mode::ReadWrite);
     if (!attached) {
       node_.fail(fmt::format("the variables of the node cannot be reached: {}", to_string(attached.error().code)));
@@ -78,12 +62,6 @@ Simulation::Simulation(const Resources& resources)
     }
   }
   (void)new_faults();
-}
-
-Simulation::Remains::~Remains() {
-  for (const std::string& node : nodes) {
-    (void)vars::remove_node(node);
-  }
 }
 
 Simulation::Part Simulation::find(const std::string& variable, const std::string& board,

@@ -51,16 +51,10 @@ class Simulation {
     schema::Type type;
     std::optional<schema::Range> range;
   };
-  // Removes the shared memory of nodes that were killed.
-  struct Remains {
-    ~Remains();
-    std::vector<std::string> nodes;
-  };
   [[nodiscard]] Part find(const std::string& variable, const std::string& board,
                           const std::vector<schema::PlaceIndex>& indices) const;
 
   std::string name_;
-  Remains remains_;
   testing::NodeProcess node_;
   std::vector<std::unique_ptr<vars::Store>> stores_;  // of the node's boards
   std::vector<std::vector<Part>> parts_;

@@ -9,7 +9,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <stdexcept>
+#include <string>
 
 namespace irp::testing {
 namespace {
@@ -79,6 +81,42 @@ TEST(PlantUnderTest, Says_what_cannot_be_done) {
   EXPECT_THAT([&] { p.kill("cntr1"); }, ThrowsMessage<std::runtime_error>(HasSubstr("no process")));
   EXPECT_THAT([] { Plant none("/nowhere/module.xml"); },
               ThrowsMessage<std::runtime_error>(HasSubstr("/nowhere/module.xml")));
+}
+
+std::set<std::string> files_in(const std::filesystem::path& folder, const std::string& prefix) {
+  std::set<std::string> found;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().filename().string().starts_with(prefix)) {
+      found.insert(entry.path().filename());
+    }
+  }
+  return found;
+}
+
+TEST(PlantUnderTest, Leaves_nothing_on_the_machine) {
+  const std::string name = "indurop.test-" + std::to_string(::getpid());
+  const char* const given = std::getenv("INDUROP_STATE_DIR");  // NOLINT(concurrency-mt-unsafe): one thread
+  const std::string chosen = given == nullptr ? "" : given;
+  ::unsetenv("INDUROP_STATE_DIR");  // NOLINT(concurrency-mt-unsafe): likewise
+  const auto temporary = std::filesystem::temp_directory_path() / ("leaves_nothing_" + std::to_string(::getpid()));
+  std::filesystem::create_directory(temporary);
+  ::setenv("TMPDIR", temporary.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): likewise
+  {
+    Plant p(kConfiguration);
+    p.run(1ms);
+    EXPECT_EQ(files_in(temporary, "").size(), 1U) << "the state of the node";
+    EXPECT_FALSE(files_in("/dev/shm", name).empty());
+    std::ofstream(temporary / "module.xml") << "<root><module><filename>./none.so</filename></module></root>";
+    EXPECT_ANY_THROW(Plant(temporary / "module.xml"));
+    std::filesystem::remove(temporary / "module.xml");
+  }
+  EXPECT_EQ(files_in(temporary, ""), std::set<std::string>{});
+  EXPECT_EQ(files_in("/dev/shm", name), std::set<std::string>{});
+  std::filesystem::remove(temporary);
+  ::unsetenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): likewise
+  if (!chosen.empty()) {
+    ::setenv("INDUROP_STATE_DIR", chosen.c_str(), 1);  // NOLINT(concurrency-mt-unsafe): likewise
+  }
 }
 
 TEST(PlantUnderTest, Repeats_a_crash_of_a_process_and_its_return) {
