@@ -11,12 +11,16 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 import time
 
 import numpy
 
 from two_arms import Arm, frame
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from nodes import new_node  # noqa: E402
 
 TOKEN = "the-token-of-these-tests-0123456789"
 DEADLINE_S = 120
@@ -40,7 +44,7 @@ class Cell:
     """A folder with the files of a robot, and what is started for it."""
 
     def __init__(self, options, folder):
-        self.options, self.folder, self.node = options, folder, f"calibrate-{os.getpid()}"
+        self.options, self.folder, self.node = options, folder, new_node(options.bin / "indurop", "calibrate-")
         urdf = (options.source / "robot.urdf").read_text()
         (folder / "robot.urdf").write_text(re.sub(r"<collision>.*?</collision>", "", urdf, flags=re.S))
         (folder / "points.job").write_text(
@@ -84,7 +88,8 @@ class Cell:
 
     def expect(self, request):
         error = self.serve(request)
-        assert error in ("0", "ROBOT_OK"), (request, error, self.get("PLC_ROBOT::ROBOT_MODULE_STATE"))
+        assert error in ("0", "ROBOT_OK"), (request, error, *(self.get(f"PLC_ROBOT::{name}") for name in (
+            "ROBOT_MODULE_STATE", "ROBOT_JOB.cMessage", "EMERGENCY_STOP")))
 
     @staticmethod
     def wait(condition, what):
@@ -93,8 +98,8 @@ class Cell:
             assert time.monotonic() < end, f"waited in vain for {what}"
             time.sleep(0.05)
 
-    def joints(self):
-        return numpy.array([float(self.get(f"PLC_ROBOT::ROBOT_ARM.joint[{i}]")) for i in range(6)])
+    def joints(self, which="joint"):
+        return numpy.array([float(self.get(f"PLC_ROBOT::ROBOT_ARM.{which}[{i}]")) for i in range(6)])
 
     def flange(self, joints):
         return self.arm.links(numpy.radians([joints]))["tool0"][0]
@@ -123,7 +128,8 @@ class Cell:
         self.wait(lambda: numpy.abs(self.joints() - joints).max() < 0.001, "the arm to arrive")
 
     def begin(self):
-        self.start(self.options.bin / "indurop", "run", "module.xml", "--node", self.node, "-q")
+        """In virtual time, so that a busy machine does not make the arm late."""
+        self.start(self.options.bin / "indurop", "run", "module.xml", "--sim", "--speed", "1", "--node", self.node, "-q")
         self.wait(lambda: subprocess.run([self.options.bin / "indurop", "get", "PLC_ROBOT::I14", "--node", self.node],
                                          env=self.environment, capture_output=True, check=False).returncode == 0, "the node")
         self.set("PLC_ROBOT::I14", "1")
@@ -137,7 +143,7 @@ class Cell:
         self.expect("eOpCode: 14, nTool: 1")
         self.expect("eOpCode: 8, dTarget: [0, -20, 10, 0, 100, 0]")
         self.expect("eOpCode: 5, p_Target: 1")
-        time.sleep(0.5)
+        self.wait(lambda: numpy.abs(self.joints("command") - self.joints()).max() < 0.001, "the arm to arrive")
         return numpy.linalg.norm((self.flange(self.joints()) @ TRUE)[:3, 3] - TIP)
 
 
