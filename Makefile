@@ -23,17 +23,19 @@ with-tests:
 	@cmake --preset release --log-level=WARNING -DINDUROP_BUILD_TESTS=ON >/dev/null
 	@cmake --build --preset release -j $(JOBS)
 
+SHOWN = PATH="$(CURDIR)/build/bin:$$PATH" INDUROP_STATE_DIR="$(CURDIR)/build/demo"
 demo: ## install what is missing, build what it shows, run the chapter's example, a plant of two boards, the robot cell
 	@.ci/install-deps build
 	@cmake --preset release --log-level=WARNING $(without_tests) >/dev/null
 	@cmake --build --preset release -j $(JOBS) --target demo_programs
-	@PATH="$(CURDIR)/build/bin:$$PATH" examples/chapter/demo.sh
-	@PATH="$(CURDIR)/build/bin:$$PATH" examples/two_boards/demo.sh
-	@PATH="$(CURDIR)/build/bin:$$PATH" examples/robot_cell/demo.sh
+	@$(SHOWN) examples/chapter/demo.sh
+	@$(SHOWN) examples/two_boards/demo.sh
+	@$(SHOWN) examples/robot_cell/demo.sh
 
 test: with-tests ## install what is missing, build, run all tests and lints
+	@rm -rf build/tests/state; ls /dev/shm >build/shared_memory
 	@$(CTEST) -LE 'tidy|soak|proof_long|million|target' -O $(CURDIR)/build/ctest.log --output-junit $(CURDIR)/build/ctest.xml; code=$$?; \
-	  python3 tests/lint/check_run.py build/ctest.xml build/ctest.log || code=1; exit $$code
+	  python3 tests/lint/check_run.py build/ctest.xml build/ctest.log build/shared_memory || code=1; exit $$code
 
 quick: with-tests ## unit and golden tests only
 	@$(CTEST) -L 'unit|golden'

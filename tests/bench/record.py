@@ -9,13 +9,18 @@ import argparse
 import contextlib
 import json
 import os
+import pathlib
 import re
 import resource
 import signal
 import statistics
 import subprocess
+import sys
 import tempfile
 import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "support"))
+from nodes import new_node  # noqa: E402
 
 CODE = """#include <indurop/generated.h>
 #include <indurop/indurop.h>
@@ -31,7 +36,7 @@ INDUROP_MODULE(run = &::onRun)
 class Node:
     def __init__(self, options, folder):
         self.options, self.folder = options, folder
-        self.name = f"bench{os.getpid()}"
+        self.name = new_node(self.tool("indurop"), "bench")
         self.config = os.path.join(folder, "module.xml")
         self.build()
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """What a run of ctest passes over in silence: tests that were skipped, and tests that passed at the second try only. Says
-again, at the end of a long output, why tests failed.
-check_run.py JUNIT LOG. Where $CI is set, a test skipped without a line in may_skip.txt fails, and so do more than two retried."""
+again, at the end of a long output, why tests failed. Where all passed, they leave no nodes in shared memory.
+check_run.py JUNIT LOG BEFORE; BEFORE lists /dev/shm before the tests. Where $CI is set, a test skipped without a line in
+may_skip.txt fails, and so do more than two retried, and shared memory that is left."""
 
 import fnmatch
 import os
@@ -68,6 +69,16 @@ def allowed(file):
     return [words[0] for words in lines if len(words) == 2 and words[1].strip()]
 
 
+def left(before, shared_memory=pathlib.Path("/dev/shm")):
+    """Nodes that are new there and do not run."""
+    found = []
+    for lock in sorted(shared_memory.glob("indurop.*.lock")):
+        runs = re.match(rb"\d+", lock.read_bytes())
+        if lock.name not in before and not (runs and os.path.exists(f"/proc/{int(runs[0])}")):
+            found.append(lock.name.removeprefix("indurop.").removesuffix(".lock"))
+    return found
+
+
 def check(junit, log, patterns):
     findings = [f"{name}: skipped ({reason}) and not in may_skip.txt" for name, reason in skipped(junit)
                 if not any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns)]
@@ -87,8 +98,12 @@ def main():
         print(f"could not be started: {name}")
     for name, lines in failed(junit):
         print(f"did not pass: {name}:", *lines, sep="\n  | ")
+    findings = check(junit, log, allowed(pathlib.Path(__file__).with_name("may_skip.txt")))
+    if not retried(log) and not list(failed(junit)):
+        remaining = left(pathlib.Path(sys.argv[3]).read_text().split())
+        findings += [f"node {node} was left in shared memory: its test has to remove it" for node in remaining]
     if os.environ.get("CI"):
-        common.report(check(junit, log, allowed(pathlib.Path(__file__).with_name("may_skip.txt"))))
+        common.report(findings)
 
 
 if __name__ == "__main__":

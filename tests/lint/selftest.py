@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Shows every lint a violation: a check that finds nothing because it is broken fails here."""
 
+import os
 import shutil
 import subprocess
 import unittest
@@ -493,6 +494,11 @@ class Run(Sample):
 
     def test_skipped(self):
         self.found(check_run.check(self.junit("Lab.One"), "", ["Rights.*"]), "Lab.One", "needs root")
+
+    def test_left_in_shared_memory(self):
+        for node, pid in (("early", 0), ("ended", 999999999), ("runs", os.getpid())):
+            self.put(f"shm/indurop.{node}.lock", f"{pid} 123\n")
+        self.assertEqual(check_run.left(["indurop.early.lock"], self.root / "shm"), ["ended"])
 
     def test_skipped_with_leave(self):
         self.assertEqual(check_run.check(self.junit("Rights.One"), "", ["Rights.*"]), [])

@@ -65,8 +65,12 @@ def run(command, environment):
         sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
 
 
+def node_name():
+    return f"tickpath{os.getpid()}"
+
+
 def node_command(arguments, xml, milliseconds):
-    return [os.path.join(arguments.bin, "indurop-node"), xml, "--node", f"tickpath{os.getpid()}", "-q", "--duration",
+    return [os.path.join(arguments.bin, "indurop-node"), xml, "--node", node_name(), "-q", "--duration",
             f"{milliseconds}ms"]
 
 
@@ -182,10 +186,7 @@ def main():
                 print(f"  FAILED: {name} sleeps more than once per tick")
                 failed = True
     finally:
-        for suffix in ("", ".run", ".lock"):
-            path = f"/dev/shm/indurop.tickpath{os.getpid()}{suffix}"
-            if os.path.exists(path):
-                os.remove(path)
+        subprocess.run([os.path.join(arguments.bin, "indurop"), "clean", "--quiet", "--node", node_name()], check=False)
         shutil.rmtree(folder)
     sys.exit(1 if failed else 0)
 

@@ -74,7 +74,11 @@ void NodeTest::TearDown() {
     }
   }
   seen_.clear();
-  (void)vars::remove_node(name_);
+  for (const std::string& node : vars::list_nodes()) {
+    if (node == name_ || node.starts_with(name_ + "-")) {  // also those that a test has started besides
+      (void)vars::remove_node(node);
+    }
+  }
   std::error_code ignored;
   std::filesystem::remove_all(folder_, ignored);
 }

@@ -7,6 +7,7 @@ shadow differs, and one that goes wrong is replaced by the previous one. INDUROP
 
 import csv
 import os
+import pathlib
 import random
 import re
 import subprocess
@@ -18,11 +19,14 @@ from cell import read_arguments
 from cell_test import RunningCell, copy_configuration
 from stops_test import configure
 
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from nodes import remove_at_exit  # noqa: E402
+
 SIMULATED_S = 90
 MOST_TRIES = 4  # of each simulation
 VALUES = ("PLC_ROBOT::AXIS?_IN", "PLC_ROBOT::AXIS?_OUT", "PLC_ROBOT::ROBOT_*", "PLC_ROBOT::O*")
 DIFFERS, WENT_BACK = 4, 5  # exit codes of reload
-NOT_RUNNING = ("does not run", "there is no node", "the node itself ends", "has ended")  # not yet, or no more
+NOT_RUNNING = ("does not run", "is just starting", "there is no node", "the node itself ends", "has ended")  # not yet, or no more
 PRESSES = "start 1.00 1.30, curtain 21.00 21.80, reset 22.30 22.50, start 22.80 23.00"
 
 
@@ -31,6 +35,8 @@ class Simulation:
 
     def __init__(self, arguments, folder, file, boards, name):
         self.arguments, self.folder, self.boards, self.name = arguments, folder, boards, name
+        self.nodes = [f"{board}-sim" for board in boards] if len(boards) > 1 else boards
+        remove_at_exit(f"{arguments.bin}/indurop", *self.nodes)
         node = [] if len(boards) > 1 else ["--node", boards[0]]
         self.process = subprocess.Popen([f"{arguments.bin}/indurop", "run", file, "--sim", "--until", f"{SIMULATED_S}s", "-q", "--record",
                                          f"{name}.mcap", *node], cwd=folder, stdout=subprocess.DEVNULL)
@@ -41,9 +47,8 @@ class Simulation:
 
     def exchange(self, ladder):
         """The tick with which another version of the ladder program began; None: the simulation has ended."""
-        node = f"{self.boards[0]}-sim" if len(self.boards) > 1 else self.boards[0]
         while self.process.poll() is None:
-            done = self.indurop("reload", "main", ladder, "--node", node, "--health", "0s")
+            done = self.indurop("reload", "main", ladder, "--node", self.nodes[0], "--health", "0s")
             began = re.search(r"runs since tick (\d+); (\d+) ticks without new values", done.stdout)
             if began:
                 assert began[2] == "0", done.stdout

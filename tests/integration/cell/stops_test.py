@@ -5,6 +5,7 @@ the light curtain at random instants, for a moment or for long, resets and start
 lost, and the cell goes on with its work. INDUROP_CELL_STOPS says how many such visits, INDUROP_CELL_SEED the first one."""
 
 import os
+import pathlib
 import random
 import re
 import subprocess
@@ -12,6 +13,9 @@ import sys
 import tempfile
 
 from cell import read_arguments
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from nodes import new_node  # noqa: E402
 
 WORK_S = 30  # after the last start; a part takes about six
 EXPECTED = 3  # parts within this time
@@ -74,6 +78,7 @@ def main():
     first = int(os.environ.get("INDUROP_CELL_SEED", random.randrange(1_000_000)))
     visits = int(os.environ.get("INDUROP_CELL_STOPS", "12"))
     failed = 0
+    node = new_node(f"{arguments.bin}/indurop", "stops_")
     with tempfile.TemporaryDirectory() as folder:
         modules = configure(arguments.cell, arguments.io_module, arguments.visitor, folder)
         for seed in range(first, first + visits):
@@ -82,7 +87,7 @@ def main():
             with open(file, "w", encoding="utf-8") as out:
                 out.write(modules.replace("PRESSES", presses))
             done = subprocess.run([f"{arguments.bin}/indurop", "run", file, "--sim", "--until", f"{end + WORK_S:.2f}s", "--node",
-                                   f"stops_{os.getpid()}"], capture_output=True, text=True, timeout=120, check=False)
+                                   node], capture_output=True, text=True, timeout=120, check=False)
             finding = wrong(done.stdout) or ("" if done.returncode == 0 else "it ended with an error")
             if finding:
                 failed += 1

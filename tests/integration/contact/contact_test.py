@@ -8,11 +8,13 @@ and a hand guides it."""
 import argparse
 import csv
 import json
-import os
 import pathlib
 import shutil
 import subprocess
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from nodes import new_node  # noqa: E402
 
 SWING = "PLC_ROBOT::ROBOT_MODULE_STATE"
 CONTACT = "30"  # ROBOT_ERR_CONTACT: recordings hold numbers
@@ -37,7 +39,7 @@ class Cell:
             (folder / file).write_text(text)
         indurop = self.options.bin / "indurop"
         subprocess.run([indurop, "run", config, "--sim", "--until", f"{seconds}s", "--record", "run.mcap", "-q",
-                        "--node", f"contact-{os.getpid()}"], check=True, cwd=folder, stdout=subprocess.DEVNULL)
+                        "--node", new_node(indurop, "contact-")], check=True, cwd=folder, stdout=subprocess.DEVNULL)
         subprocess.run([indurop, "recording", "export", "run.mcap", "--csv", "run.csv", "-q"], check=True, cwd=folder,
                        stdout=subprocess.DEVNULL)
         with open(folder / "run.csv", encoding="utf-8") as file:

@@ -18,6 +18,9 @@ import time
 
 import numpy
 
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from nodes import new_node  # noqa: E402
+
 PATIENCE_S = 120
 SPEED = "0.25"  # of virtual time, so that a busy machine does not miss the beat of the command
 MANUAL = "{eMode: ROBOT_MODE_MANUAL, bEnable: 1}"
@@ -26,7 +29,7 @@ HAND = "CONTACT::hand"
 
 class Cell:
     def __init__(self, options):
-        self.options, self.node = options, f"guide-{os.getpid()}"
+        self.options, self.node = options, new_node(options.bin / "indurop", "guide-")
         self.folder = options.work
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)

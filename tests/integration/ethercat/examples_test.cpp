@@ -103,6 +103,7 @@ TEST(EthercatExample, Of_the_arm_in_virtual_time_replays_without_a_difference) {
   const auto replay = indurop({"replay", recording, "--node", node});
   EXPECT_EQ(replay.code, 0) << replay.out;
   EXPECT_THAT(replay.out, testing::HasSubstr(" values: equal"));
+  EXPECT_EQ(indurop({"clean", "--node", node}).code, 0);
 }
 
 TEST(EthercatExample, Of_two_worlds_only_the_first_is_wired_to_the_terminal) {

@@ -16,6 +16,9 @@ import subprocess
 import sys
 import time
 
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from nodes import new_node  # noqa: E402
+
 PATIENCE = 120
 SPIN_MS = 60  # six periods of 10 ms, less than what is taken for a hang
 
@@ -42,7 +45,7 @@ class Live:
         self.work = options.work
         shutil.rmtree(self.work, ignore_errors=True)
         self.work.mkdir(parents=True)
-        self.node = f"explain{os.getpid()}"
+        self.node = new_node(options.indurop, "explain")
         self.environment = dict(os.environ, INDUROP_STATE_DIR=str(self.work / "state"))
         self.user = getpass.getuser()
 
@@ -170,7 +173,7 @@ class Live:
 
     def board_gone(self):
         """Two boards of this machine; one is killed, recordings of both are asked."""
-        here, there = f"here{os.getpid()}", f"there{os.getpid()}"
+        here, there = (new_node(self.options.indurop, name) for name in ("here", "there"))
         boards = "".join(f'<board name="{name}">{part}</board>' for name, part in (
             (here, module(f"{self.options.modules}/live_second.so", "second", "10ms", 1)),
             (there, module(f"{self.options.modules}/live_first.so", "first", "10ms", 1))))
@@ -197,7 +200,6 @@ class Live:
         for program in nodes.values():
             program.wait()
         answer = self.explain(there, "--from", files[here], "--from", files[there])
-        self.tool("clean", "--node", there, check=False)
         return answer, ("board", there)
 
 

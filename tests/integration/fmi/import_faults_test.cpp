@@ -213,6 +213,7 @@ TEST(FmuCheck, A_node_in_real_time_refuses_an_FMU) {
       run({INDUROP, "run", model.file().string(), "--duration", "100ms", "--node", "fmu-real"});
   EXPECT_NE(outcome.code, 0);
   EXPECT_THAT(outcome.out + outcome.err, HasSubstr("runs in simulations only"));
+  (void)run({INDUROP, "clean", "--node", "fmu-real"});
 }
 
 TEST(FmuCheck, A_check_for_a_simulation_accepts_it) {

@@ -8,7 +8,9 @@ runner=
 cleanup() {
   [ -z "$runner" ] || kill "$runner" 2>/dev/null || true
   [ -z "$runner" ] || wait "$runner" 2>/dev/null || true
-  "$programs/indurop" clean -q --node "$INDUROP_NODE" >/dev/null 2>&1 || true
+  for node in "$INDUROP_NODE" "$INDUROP_NODE-board1" "$INDUROP_NODE-board2" "$INDUROP_NODE-board3"; do
+    "$programs/indurop" clean -q --node "$node" >/dev/null 2>&1 || true
+  done
   rm -rf "$folder"
 }
 trap cleanup EXIT

@@ -11,13 +11,16 @@ import shutil
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from nodes import new_node  # noqa: E402
+
 
 class Ladder:
     def __init__(self, options):
         self.indurop, self.work = options.indurop, options.work
         shutil.rmtree(self.work, ignore_errors=True)
         (self.work / "counts").mkdir(parents=True)
-        self.node = f"coverage{os.getpid()}"
+        self.node = new_node(options.indurop, "coverage")
         self.environment = dict(os.environ, INDUROP_PLC_COVERAGE=str(self.work / "counts"),
                                 INDUROP_STATE_DIR=str(self.work / "state"))
         shutil.copy(options.program, self.work / "conveyor.xml")

@@ -22,6 +22,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
 from mcap_file import McapFile  # noqa: E402
+from nodes import new_node  # noqa: E402
 
 # What nt::walked is of nt::output.
 FACTORS = {"same": 1, "other": -1, "fresh": -1, "less": -1, "grown": -1, "by": -1, "by_other": -2, "gains": -1, "gains_kept": -1,
@@ -35,7 +36,7 @@ class Cell:
     def __init__(self, options, folder):
         self.bin, self.modules, self.folder = options.bin, options.modules, folder
         self.environment = dict(os.environ, INDUROP_STATE_DIR=str(folder / "state"))
-        self.name = f"exchange-{os.getpid()}"
+        self.name = new_node(options.bin / "indurop", "exchange-")
         self.configuration = folder / "module.xml"
         module = ("<module><filename>{0}</filename><name>{1}</name><moduletype>thread</moduletype><operationtype>periodic"
                   "</operationtype><period>{2}</period><priority>{3}</priority></module>")

@@ -16,6 +16,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
 from mcap_file import McapFile  # noqa: E402
+from nodes import new_node  # noqa: E402
 
 SECONDS = 60
 RECORDINGS = 25
@@ -42,7 +43,7 @@ class Node:
     def __init__(self, options, folder, module):
         self.programs, self.folder = options.bin, folder
         self.environment = dict(os.environ, INDUROP_STATE_DIR=str(folder / "state"))
-        self.name = f"late-{os.getpid()}"
+        self.name = new_node(options.bin / "indurop", "late-")
         self.configuration = folder / f"{module}.xml"
         self.configuration.write_text(
             f"<root><module><filename>{options.modules}/{module}.so</filename><name>rambler</name><moduletype>thread</moduletype>"

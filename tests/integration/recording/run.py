@@ -11,6 +11,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from nodes import new_node  # noqa: E402
 from npm_packages import fetch, skip  # noqa: E402
 
 HERE = pathlib.Path(__file__).parent
@@ -31,7 +32,7 @@ def judge_parts(options):
         subprocess.run([options.indurop, *map(str, words)], check=True, cwd=folder, stdout=subprocess.DEVNULL)
 
     run = folder / "run.mcap"
-    indurop("run", "module.xml", "--sim", "--until", "1s", "--record", run, "-q", "--node", f"judged-{os.getpid()}")
+    indurop("run", "module.xml", "--sim", "--until", "1s", "--record", run, "-q", "--node", new_node(options.indurop, "judged-"))
     indurop("recording", "cut", run, "-o", folder / "cut.mcap", "-q")
     indurop("recording", "cut", run, "--from", "400.5ms", "--to", "600.5ms", "-o", folder / "part.mcap", "-q")
     indurop("recording", "join", run, "-o", folder / "joined.mcap", "-q")

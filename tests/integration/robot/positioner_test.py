@@ -5,12 +5,15 @@ recorded set points of seven drives it computes where the torch is on the disc a
 
 import argparse
 import csv
-import os
 import pathlib
 import subprocess
+import sys
 import tempfile
 
 import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from nodes import new_node  # noqa: E402
 
 # a (m), alpha, d (m) of the six axes; the last one ends at the flange, from which the torch is 150 mm long.
 ARM = [(0, numpy.pi / 2, 0.1273), (-0.612, 0, 0), (-0.5723, 0, 0), (0, numpy.pi / 2, 0.163941), (0, -numpy.pi / 2, 0.1157),
@@ -49,7 +52,7 @@ def set_points(options, folder):
         (folder / file).write_text(text.replace("<filename>./", f"<filename>{options.example}/"))
     indurop = options.bin / "indurop"
     subprocess.run([indurop, "run", "module.xml", "--sim", "--until", "36s", "--record", "run.mcap", "-q", "--node",
-                    f"positioner-{os.getpid()}"], check=True, cwd=folder, stdout=subprocess.DEVNULL)
+                    new_node(indurop, "positioner-")], check=True, cwd=folder, stdout=subprocess.DEVNULL)
     subprocess.run([indurop, "recording", "export", "run.mcap", "--csv", "run.csv", "-q"], check=True, cwd=folder,
                    stdout=subprocess.DEVNULL)
     with open(folder / "run.csv", encoding="utf-8") as file:

@@ -5,12 +5,15 @@ from the drawing of arm and table: from the recorded set points of eight drives 
 
 import argparse
 import csv
-import os
 import pathlib
 import subprocess
+import sys
 import tempfile
 
 import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from nodes import new_node  # noqa: E402
 
 PERIOD = 0.004  # s
 CORNERS = [(-80, -60, 5), (80, -60, 5), (80, 60, 5), (-80, -60, 5)]  # mm
@@ -69,7 +72,7 @@ def set_points(options, folder):
     write_cell(options, folder)
     indurop = options.bin / "indurop"
     subprocess.run([indurop, "run", "module.xml", "--sim", "--until", "30s", "--record", "run.mcap", "-q", "--node",
-                    f"tilt-{os.getpid()}"], check=True, cwd=folder, stdout=subprocess.DEVNULL)
+                    new_node(indurop, "tilt-")], check=True, cwd=folder, stdout=subprocess.DEVNULL)
     subprocess.run([indurop, "recording", "export", "run.mcap", "--csv", "run.csv", "-q"], check=True, cwd=folder,
                    stdout=subprocess.DEVNULL)
     seen = {}

@@ -6,15 +6,18 @@ property other_robots they touch, so the judge can tell."""
 
 import argparse
 import csv
-import os
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 
 import numpy
 
 from two_arms import Arm, GRID, frame, nearest, numbers
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from nodes import new_node  # noqa: E402
 
 PERIOD = 4_000_000  # ns
 ROBOTS = ("PLC_ROBOT", "PLC_ROBOT2")
@@ -41,7 +44,7 @@ class Run:
         indurop = options.bin / "indurop"
         quiet = {"check": True, "cwd": folder, "stdout": subprocess.DEVNULL}
         subprocess.run([indurop, "run", "module.xml", "--sim", "--until", f"{seconds}s", "--record", "run.mcap", "-q", "--node",
-                        f"two-{os.getpid()}"], **quiet)
+                        new_node(indurop, "two-")], **quiet)
         names = [f"{robot}::{name}" for robot in ROBOTS for name in ("ROBOT_ARM", "ROBOT_SPACE", "ROBOT_JOB")]
         subprocess.run([indurop, "recording", "export", "run.mcap", *names, "--csv", "run.csv", "-q"], **quiet)
         with open(folder / "run.csv", encoding="utf-8") as file:
