@@ -245,11 +245,12 @@ TEST_F(RobotNode, A_force_holds_the_block_that_moves_around_obstacles) {
   ASSERT_TRUE(wait_until([&] { return number("free_blocks::stage") >= 3; }));
   ASSERT_EQ(indurop({"force", "PLC_ROBOT::ROBOT_HOLD", "1"}).code, 0);
   ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::ROBOT_ARM.override_now") == 0; }));
-  const double held = joint(1);
+  const auto set_point = [&] { return number("PLC_ROBOT::ROBOT_ARM.command[0]"); };
+  const double held = set_point();
   const double stage = number("free_blocks::stage");
   const double scans = number("free_blocks::scans");
   ASSERT_TRUE(wait_until([&] { return number("free_blocks::scans") > scans + 200; }));
-  EXPECT_EQ(joint(1), held);
+  EXPECT_EQ(set_point(), held);
   EXPECT_EQ(number("free_blocks::stage"), stage);
   ASSERT_EQ(indurop({"unforce", "PLC_ROBOT::ROBOT_HOLD"}).code, 0);
   set("PLC_ROBOT::ROBOT_HOLD", "0");
