@@ -2,6 +2,7 @@
 #include "core/base/line_journal.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 #include "core/base/descriptor.h"
 #include "core/base/read_file.h"
+#include "core/rt/file_lock.h"
 
 namespace indurop::base {
 namespace {
@@ -26,15 +28,30 @@ bool ends_within_a_line(int file) {
   return size > 0 && ::pread(file, &last, 1, size - 1) == 1 && last != '\n';
 }
 
+// Renames the open file if it has grown too large. Of several processes and threads that find this, one does it: those
+// that come later would put the new file in the place of the one that was just put aside, which would be lost.
+bool put_aside(const LineJournal& journal, int file) {
+  struct stat own {};
+  struct stat named {};
+  return ::fstat(file, &own) == 0 && static_cast<std::uintmax_t>(own.st_size) > journal.max_bytes &&
+         rt::lock_file(file, rt::FileLock::Exclusive).ok() && ::stat(journal.file.c_str(), &named) == 0 &&
+         named.st_ino == own.st_ino && named.st_dev == own.st_dev &&
+         ::rename(journal.file.c_str(), before(journal.file).c_str()) == 0;
+}
+
+Descriptor open_journal(const LineJournal& journal) {
+  return Descriptor(::open(journal.file.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, journal.mode));
+}
+
 }  // namespace
 
 std::string append_line(const LineJournal& journal, std::string line) {
   std::error_code error;
   std::filesystem::create_directories(journal.file.parent_path(), error);
-  if (const auto size = std::filesystem::file_size(journal.file, error); !error && size > journal.max_bytes) {
-    std::filesystem::rename(journal.file, before(journal.file), error);
+  Descriptor fd = open_journal(journal);
+  if (fd.is_open() && put_aside(journal, fd.get())) {
+    fd = open_journal(journal);
   }
-  const Descriptor fd(::open(journal.file.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, journal.mode));
   if (!fd.is_open()) {
     return std::strerror(errno);
   }

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <barrier>
 #include <csignal>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "folder.h"
@@ -46,6 +48,27 @@ TEST_F(LineJournals, A_file_that_has_grown_is_put_aside_and_the_one_before_it_go
     ASSERT_EQ(append_line(journal(25), line), "");
   }
   EXPECT_EQ(lines(), (std::vector<std::string>{"line    4", "line    5", "line    6", "line    7"}));
+}
+
+TEST_F(LineJournals, Writers_at_the_same_time_put_a_file_aside_once) {
+  constexpr int kWriters = 8;
+  constexpr int kRounds = 300;
+  for (int round = 0; round < kRounds; ++round) {
+    std::filesystem::remove_all(at("deep"));
+    ASSERT_EQ(append_line(journal(1000), "an old line which is longer than the journal may be"), "");
+    std::barrier<> all(kWriters);
+    std::vector<std::thread> writers;
+    for (int i = 0; i < kWriters; ++i) {
+      writers.emplace_back([this, &all] {
+        all.arrive_and_wait();
+        EXPECT_EQ(append_line(journal(40), "new"), "");
+      });
+    }
+    for (std::thread& writer : writers) {
+      writer.join();
+    }
+    ASSERT_EQ(lines().size(), kWriters + 1U) << "round " << round;
+  }
 }
 
 TEST_F(LineJournals, A_line_that_was_cut_anywhere_does_not_damage_the_next_one) {
