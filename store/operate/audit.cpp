@@ -1,17 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "store/operate/audit.h"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <cstdint>
+#include <utility>
 
 #include "core/base/line_journal.h"
+#include "core/base/utf8.h"
 #include "store/vars/retain.h"
 
 namespace indurop::operate {
 namespace {
 
 constexpr std::uintmax_t kMaxAuditBytes = 8U << 20;
+
+// Without a limit, a user who may write could push all other entries out of the log by a few long ones.
+std::string shortened(std::string text) {
+  if (text.size() <= kMaxAuditText) {
+    return text;
+  }
+  std::size_t end = kMaxAuditText;
+  while (end > 0 && base::continues_utf8(text[end])) {
+    --end;
+  }
+  return fmt::format("{}... ({} bytes in all)", std::string_view(text).substr(0, end), text.size());
+}
 
 }  // namespace
 
@@ -39,7 +54,11 @@ std::filesystem::path usual_audit_file() {
   return vars::state_directory("serve") / "audit.jsonl";
 }
 
-std::string append_audit(const std::filesystem::path& file, const AuditEntry& entry) {
+std::string append_audit(const std::filesystem::path& file, AuditEntry entry) {
+  for (std::string* const text :
+       {&entry.who, &entry.from, &entry.board, &entry.action, &entry.what, &entry.outcome, &entry.reason}) {
+    *text = shortened(std::move(*text));
+  }
   return base::append_line({file, kMaxAuditBytes, S_IRUSR | S_IWUSR, base::Durable::Yes}, json_of(entry).dump());
 }
 

@@ -32,9 +32,10 @@ std::optional<AuditEntry> parse_audit_line(std::string_view line);
 
 // The default file, in the state folder: all servers of this user write to the same one.
 std::filesystem::path usual_audit_file();
-// Appends one whole line and syncs it to the disk. A file larger than 8 MiB is first renamed to FILE.1. Returns why
-// that failed, else an empty text.
-std::string append_audit(const std::filesystem::path& file, const AuditEntry& entry);
+inline constexpr std::size_t kMaxAuditText = 4096;  // bytes of each text of an entry that are kept
+// Appends one whole line and syncs it to the disk. A file larger than 8 MiB is first renamed to FILE.1. Texts that are
+// too long are cut, with their length. Returns why that failed, else an empty text.
+std::string append_audit(const std::filesystem::path& file, AuditEntry entry);
 // Returns the newest `most` entries, oldest first, including those of FILE.1. Empty if there is no such file.
 std::vector<AuditEntry> read_audit(const std::filesystem::path& file, std::size_t most);
 

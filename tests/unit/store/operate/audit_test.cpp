@@ -28,6 +28,28 @@ TEST(Audit, Keeps_what_was_written_and_shows_the_newest) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Audit, Long_texts_do_not_push_other_entries_out) {
+  const auto folder = std::filesystem::path(::testing::TempDir()) / ("audit_long" + std::to_string(getpid()));
+  const auto file = folder / "audit.jsonl";
+  ASSERT_EQ(append_audit(file, {5, "ana", "127.0.0.1", "local", "set", "first", "done", "why"}), "");
+  std::string text(kMaxAuditText - 1, 'x');
+  while (text.size() < 250'000) {
+    text += "\u00e9";
+  }
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_EQ(append_audit(file, {5, "ana", "127.0.0.1", "local", "set", text, text, text}), "");
+  }
+  const auto all = read_audit(file, 1000);
+  ASSERT_EQ(all.size(), 101U);
+  EXPECT_EQ(all[0].what, "first");
+  const std::string kept =
+      std::string(kMaxAuditText - 1, 'x') + "... (" + std::to_string(text.size()) + " bytes in all)";
+  EXPECT_EQ(all[100].what, kept) << "no part of a character";
+  EXPECT_EQ(all[100].reason, kept);
+  EXPECT_LT(std::filesystem::file_size(file), 2'000'000U);
+  std::filesystem::remove_all(folder);
+}
+
 TEST(Audit, Says_why_it_cannot_be_kept) {
   EXPECT_NE(append_audit("/proc/nowhere/audit.jsonl", {}), "");
 }
