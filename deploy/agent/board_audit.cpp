@@ -71,18 +71,20 @@ Command signed_by(Command command, const std::string& user) {
   return command;
 }
 
-void note_command(const Command& command, const std::string& user, const std::string& outcome) {
-  const WriteOrder order = has_words(command.action) ? parse_module_target(command.target) : WriteOrder{};
-  const bool recording = command.action == Action::Record || command.action == Action::EndRecord ||
-                         command.action == Action::DropRecord;  // repeated to keep it running
-  if (order.renew || (recording && outcome == "done")) {
-    return;
+std::string note_command(const Command& command, const std::string& user, const std::string& outcome) {
+  const bool recording =
+      command.action == Action::Record || command.action == Action::EndRecord || command.action == Action::DropRecord;
+  if (recording && outcome == "unchanged") {
+    return {};  // repeated to keep it running
   }
+  const WriteOrder order = has_words(command.action) ? parse_module_target(command.target) : WriteOrder{};
+  const bool renewal = command.action == Action::Force && order.renew;
   const std::string claimed = order.who.empty() ? "a deployer" : order.who + " (deployer)";
-  const std::string what = fmt::format("{}", fmt::join(order.lines, " ")).substr(0, kMaxWhat);
-  (void)operate::append_audit(operate::usual_audit_file(),
-                              {rt::wall_ns(), user.empty() ? claimed : user, command.host, command.board,
-                               word_of(command.action), what, outcome, order.reason});
+  const std::string what = renewal ? "renewal" : fmt::format("{}", fmt::join(order.lines, " ")).substr(0, kMaxWhat);
+  const std::string problem = operate::append_audit(
+      operate::usual_audit_file(), {rt::wall_ns(), user.empty() ? claimed : user, command.host, command.board,
+                                    word_of(command.action), what, outcome, order.reason});
+  return problem.empty() ? problem : fmt::format("{}: {}", operate::usual_audit_file().string(), problem);
 }
 
 }  // namespace indurop::deploy

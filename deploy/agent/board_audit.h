@@ -15,7 +15,8 @@ const char* word_of(Action action) noexcept;
 // Returns the command with this verified name in place of the one that it claims; empty: as it is.
 Command signed_by(Command command, const std::string& user);
 // Notes a command. `user`: the verified name; empty: the name in the command is that of a deployer's client, which says
-// so. `outcome`: "done", else why not. Nothing is noted of renewals and repetitions.
-void note_command(const Command& command, const std::string& user, const std::string& outcome);
+// so. `outcome`: "begun", "done", else why not. Nothing is noted of recordings that are kept running. Returns why it
+// could not be noted, else an empty text.
+std::string note_command(const Command& command, const std::string& user, const std::string& outcome);
 
 }  // namespace indurop::deploy

@@ -81,7 +81,7 @@ bool BoardCommands::step(CommandLink& link, DeployLink& files, const std::string
     if (!is_recording(command_->action)) {  // the recorder reports its own actions
       send_reply(*done);
     }
-    note_command(*command_, user_, outcome_of(*done));
+    (void)note_command(*command_, user_, outcome_of(*done));  // its begin is noted
     known_[command_->commander].last = done;
     link.send(*done);
     command_.reset();
@@ -151,7 +151,7 @@ CommandReply BoardCommands::carry_out(const Command& command, const std::string&
   }
   const auto order = command.action == Action::Force ? parse_write_order(command.target) : std::nullopt;
   if (why.empty() && order && order->renew) {
-    return write(command);  // changes nothing and waits for nothing
+    return write(command, verdict.user);  // changes nothing and waits for nothing
   }
   if (why.empty()) {
     why = busy.empty() && command_ ? fmt::format("it is carrying out a command from {}; try again", command_->host)
@@ -161,27 +161,34 @@ CommandReply BoardCommands::carry_out(const Command& command, const std::string&
     if (const std::uint64_t count = refusals_.count(now.time_since_epoch().count()); count > 0) {
       const std::string noted = count > 1 ? fmt::format("{} ({} refusals)", why, count) : why;
       log_.warning("a command from {} was refused: {}", command.host, noted);
-      note_command(command, verdict.user, noted);
+      (void)note_command(command, verdict.user, noted);  // nothing is changed, so a missing entry hides nothing
     }
     return reply(command, Outcome::Refused, why);
   }
+  if (const std::string unnoted = is_recording(command.action) ? "" : note_command(command, verdict.user, "begun");
+      !unnoted.empty()) {
+    log_.warning("a command from {} was refused: it cannot be noted down in {}", command.host, unnoted);
+    return reply(command, Outcome::Refused,
+                 fmt::format("nothing was changed, because it cannot be noted down in {}", unnoted));
+  }
   deadline_ = now + kPatience;
   WriteOrder words = parse_module_target(command.target);
-  CommandReply answer = perform(command, words, now);
+  CommandReply answer = perform(command, verdict.user, words, now);
   if (answer.outcome == Outcome::UnderWay) {
     command_ = command;
     words_ = std::move(words);
     user_ = verdict.user;
   } else {
     run_.reset();
-    note_command(command, verdict.user, outcome_of(answer));
+    (void)note_command(command, verdict.user, outcome_of(answer));
   }
   return answer;
 }
 
-CommandReply BoardCommands::perform(const Command& command, const WriteOrder& words, rt::MonoTime now) {
+CommandReply BoardCommands::perform(const Command& command, const std::string& user, const WriteOrder& words,
+                                    rt::MonoTime now) {
   if (is_write(command.action)) {
-    return write(command);
+    return write(command, user);
   }
   if (command.action == Action::KeepBox) {
     return keep_box(command);
@@ -208,12 +215,12 @@ scheduler::ModuleRecord* BoardCommands::find(const std::string& module) {
   return find_module_record(run_block(*run_), module);
 }
 
-CommandReply BoardCommands::write(const Command& command) {
+CommandReply BoardCommands::write(const Command& command, const std::string& user) {
   if (process_.condition() != NodeCondition::Running) {
     return reply(command, Outcome::Refused, "its node is not running");
   }
   const auto order = parse_write_order(command.target);
-  const auto done = forces_.carry_out(command);
+  const auto done = forces_.carry_out(command, user);
   if (!order || !order->renew) {
     const std::string what = !order                 ? command.target
                              : order->lines.empty() ? "*"

@@ -49,8 +49,8 @@ class BoardCommands {
   CommandReply begin_reload(const Command& command, const WriteOrder& words, rt::MonoTime now);
   CommandReply begin_node(const Command& command, const WriteOrder& words);
   void send_reply(const CommandReply& done) const;
-  CommandReply perform(const Command& command, const WriteOrder& words, rt::MonoTime now);
-  CommandReply write(const Command& command);
+  CommandReply perform(const Command& command, const std::string& user, const WriteOrder& words, rt::MonoTime now);
+  CommandReply write(const Command& command, const std::string& user);
   [[nodiscard]] CommandReply keep_box(const Command& command) const;
   [[nodiscard]] CommandReply about_alarms(const Command& command) const;
   CommandReply begin_recording(const Command& command, rt::MonoTime now);

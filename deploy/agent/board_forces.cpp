@@ -47,9 +47,10 @@ Done set_lock(const std::string& board, const WriteOrder& order, const operate::
 
 }  // namespace
 
-Done BoardForces::carry_out(const Command& command) {
+Done BoardForces::carry_out(const Command& command, const std::string& user) {
   const auto order = parse_write_order(command.target);
-  const bool bare = command.action == Action::Unforce || (order && order->renew);
+  const bool renewal = order && order->renew && command.action == Action::Force;
+  const bool bare = command.action == Action::Unforce || renewal;
   if (!order || (order->lines.empty() && !bare)) {
     return Problem{"the command cannot be understood"};
   }
@@ -57,8 +58,8 @@ Done BoardForces::carry_out(const Command& command) {
   if (command.action == Action::SetLock) {
     return set_lock(board_, *order, by);
   }
-  if (order->renew) {
-    return renew(command, *order);
+  if (renewal) {
+    return renew(command, *order, user);
   }
   auto store = vars::Store::attach(board_, vars::Mode::ReadWrite);
   if (!store) {
@@ -83,19 +84,22 @@ Done BoardForces::carry_out(const Command& command) {
     std::erase_if(leases_, [&](const auto& one) {
       return one.second.store.retired() || one.second.lease.until < one.second.store.now();
     });
-    leases_.insert_or_assign(command.commander, Held{std::move(held).value(), by, std::move(store).value()});
+    leases_.insert_or_assign(command.commander, Held{std::move(held).value(), by, user, std::move(store).value()});
   }
   return {};
 }
 
 // Renewal is allowed under a write lock too: values that are already forced stay forced.
-Done BoardForces::renew(const Command& command, const WriteOrder& order) {
+Done BoardForces::renew(const Command& command, const WriteOrder& order, const std::string& user) {
   const auto found = leases_.find(command.commander);
   if (found == leases_.end() || found->second.store.retired()) {
     leases_.erase(command.commander);
     return Problem{"this lease no longer exists"};
   }
   Held& held = found->second;
+  if (held.user != user) {
+    return Problem{"this lease is that of another user"};
+  }
   if (!order.end) {
     return done(operate::renew(held.lease, held.store, order.for_ns));
   }

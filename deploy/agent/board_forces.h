@@ -25,17 +25,19 @@ class BoardForces {
   explicit BoardForces(std::string board) : board_(std::move(board)) {}
 
   // Executes Action::Force, Unforce, Set and SetLock: all of it or nothing; a problem names everything that is wrong.
-  // Values must be within their declared range.
-  Result<void, base::Problem> carry_out(const Command& command);
+  // Values must be within their declared range. `user`: verified, empty: a deployer; a lease is renewed and ended by
+  // the one who has it only.
+  Result<void, base::Problem> carry_out(const Command& command, const std::string& user);
 
  private:
   // The lease that a commander holds as long as it renews it.
   struct Held {
     operate::Lease lease;
     operate::Who who;
+    std::string user;   // verified; empty: a deployer
     vars::Store store;  // store to which the lease belongs
   };
-  Result<void, base::Problem> renew(const Command& command, const WriteOrder& order);
+  Result<void, base::Problem> renew(const Command& command, const WriteOrder& order, const std::string& user);
 
   std::string board_;
   std::map<std::uint64_t, Held> leases_;  // by commander

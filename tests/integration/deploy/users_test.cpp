@@ -97,6 +97,28 @@ TEST_F(RemoteUsers, Are_named_in_the_audit_log_by_their_certificate) {
   EXPECT_THAT(refused["outcome"].get<std::string>(), HasSubstr("this needs program"));
 }
 
+TEST_F(RemoteUsers, Change_nothing_that_the_audit_log_cannot_take) {
+  list({{"anna", "--role", "operate"}});
+  ASSERT_EQ(send(path("keys")).code, 0);
+  ASSERT_EQ(as("anna", {"set", "torque=1"}).code, 0);
+  const std::filesystem::path log = path("state/serve/audit.jsonl");
+  std::filesystem::remove(log);
+  std::filesystem::create_symlink("/dev/full", log);
+  for (const bool deployer : {false, true}) {
+    const Outcome full =
+        deployer ? indurop({"set", "torque=2", "--board", board("a")}) : as("anna", {"set", "torque=2"});
+    EXPECT_EQ(full.code, 1) << full.out;
+    EXPECT_THAT(full.err, HasSubstr("cannot be noted down"));
+    EXPECT_THAT(full.err, HasSubstr("No space left on device"));
+  }
+  std::filesystem::remove(log);
+  EXPECT_EQ(as("anna", {"set", "torque=3"}).code, 0);
+  const Json after = audit();
+  ASSERT_EQ(after.size(), 2U) << after;
+  EXPECT_EQ(after[0]["outcome"], "begun");
+  EXPECT_EQ(after[1]["outcome"], "done");
+}
+
 TEST_F(RemoteUsers, Keep_their_rights_when_the_agent_starts_again_and_lose_them_with_their_keys) {
   list({{"anna", "--role", "operate"}});
   ASSERT_EQ(send(path("keys")).code, 0);
