@@ -6,6 +6,8 @@ and what the audit log says. users_test.py PROGRAMS FAKE_NODE [TEST...]"""
 import hashlib
 import json
 import os
+import resource
+import signal
 import socket
 import ssl
 import subprocess
@@ -208,6 +210,36 @@ def test_the_command_line_makes_the_list(setting):
     assert (setting.folder / "u.xml").read_bytes() == before, "what fails changes nothing"
     (setting.folder / "u.xml").write_text("<users>\n<user name='x' role='boss'/></users>")
     assert "u.xml:2:" in indurop("list", code=4)[1]
+
+
+def test_changes_of_the_list_at_the_same_time_are_all_kept(setting):
+    file = setting.folder / "u.xml"
+
+    def start(*words):
+        return setting.start(setting.programs / "indurop", "users", *words, "--file", file, stderr=subprocess.PIPE)
+
+    names = [f"user{number}" for number in range(24)]
+    adding = [start("add", name, "--role", "look", "--no-password") for name in names]
+    assert [child.wait(harness.DEADLINE_S) for child in adding] == [0] * len(names)
+    listed = [line.split('"')[1] for line in file.read_text().splitlines() if "<user " in line]
+    assert sorted(listed) == sorted(names), listed
+
+
+def test_nothing_is_said_of_a_change_that_could_not_be_saved(setting):
+    users = Users(setting, anna=user("operate"))
+    before = users.file.read_bytes()
+
+    def no_room():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+
+    for words in (["remove", "anna"], ["role", "anna", "look"], ["token", "anna"], ["password", "anna"],
+                  ["add", "eve", "--role", "look", "--no-password"]):
+        done = subprocess.run([str(setting.programs / "indurop"), "users", *words, "--file", str(users.file)],
+                              input="long enough\n", capture_output=True, text=True, env=setting.environment,
+                              preexec_fn=no_room, check=False)
+        assert done.returncode == 1 and "cannot write" in done.stderr and done.stdout == "", (words, done)
+    assert users.file.read_bytes() == before
 
 
 def test_tls_by_the_authority_of_the_plant(setting):

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // indurop users: the people and programs that a plant's servers let in, and the role of each.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,9 +9,11 @@
 #include <optional>
 
 #include "config/users_reader.h"
+#include "core/base/descriptor.h"
 #include "core/base/file_problem.h"
 #include "core/base/replace_file.h"
 #include "core/keys/password.h"
+#include "core/rt/file_lock.h"
 #include "tools/cli/command/password_prompt.h"
 #include "tools/cli/command/pattern_option.h"
 #include "tools/cli/verbs/verbs.h"
@@ -75,24 +78,50 @@ int save(Context& context, const UsersRequest& request, const std::vector<config
   return kOk;
 }
 
-// Changes the user who was named, and saves the list. `change` returns an exit code.
+// Returns the user who was named, or the end after an error.
+std::vector<config::PlantUser>::iterator find_user(Context& context, const UsersRequest& request,
+                                                   std::vector<config::PlantUser>& users) {
+  const auto at = std::find_if(users.begin(), users.end(), [&](const auto& one) { return one.name == request.name; });
+  if (at == users.end()) {
+    std::vector<std::string> names;
+    std::transform(users.begin(), users.end(), std::back_inserter(names), [](const auto& one) { return one.name; });
+    context.out.error(fmt::format("there is no user '{}' in {}.{}", request.name, request.file.string(),
+                                  did_you_mean(request.name, names)));
+  }
+  return at;
+}
+
+// Held from reading the list until it is saved, so that no change of another process is lost. The list itself is
+// replaced by each change, so its folder is locked.
+base::Descriptor lock_list(const UsersRequest& request) {
+  const fs::path folder = request.file.parent_path();
+  base::Descriptor lock(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (lock.is_open()) {
+    (void)rt::lock_file_when_free(lock.get(), rt::FileLock::Exclusive);  // not every file system has locks
+  }
+  return lock;
+}
+
+// Changes the user who was named, and saves the list. `change` returns what to say when it is saved; nothing after an
+// error.
 template <class Change>
 int change_user(Context& context, const UsersRequest& request, const Change& change) {
+  const base::Descriptor lock = lock_list(request);
   int code = kOk;
   auto users = open_users(context, request, code);
   if (!users) {
     return code;
   }
-  const auto at = std::find_if(users->begin(), users->end(), [&](const auto& one) { return one.name == request.name; });
+  const auto at = find_user(context, request, *users);
   if (at == users->end()) {
-    std::vector<std::string> names;
-    std::transform(users->begin(), users->end(), std::back_inserter(names), [](const auto& one) { return one.name; });
-    context.out.error(fmt::format("there is no user '{}' in {}.{}", request.name, request.file.string(),
-                                  did_you_mean(request.name, names)));
     return kFailed;
   }
-  code = change(*users, at);
-  return code == kOk ? save(context, request, *users) : code;
+  const std::optional<std::string> said = change(*users, at);
+  code = said ? save(context, request, *users) : kFailed;
+  if (code == kOk) {
+    context.out.line(*said);
+  }
+  return code;
 }
 
 // Asks for a password. Returns its hash, or nothing after an error.
@@ -145,6 +174,18 @@ int list(Context& context, const UsersRequest& request) {
   return kOk;
 }
 
+// Returns the list that the user can be added to; nothing after an error, with the exit code in `code`.
+std::optional<std::vector<config::PlantUser>> users_without(Context& context, const UsersRequest& request, int& code) {
+  auto users = open_users(context, request, code);
+  if (users && std::any_of(users->begin(), users->end(), [&](const auto& one) { return one.name == request.name; })) {
+    context.out.error(fmt::format("there is a user '{}' already; indurop users role {} ROLE changes the role",
+                                  request.name, request.name));
+    code = kFailed;
+    return std::nullopt;
+  }
+  return users;
+}
+
 int add(Context& context, const UsersRequest& request) {
   if (!config::is_user_name(request.name)) {
     context.out.error(
@@ -152,14 +193,8 @@ int add(Context& context, const UsersRequest& request) {
     return kUsage;
   }
   int code = kOk;
-  auto users = open_users(context, request, code);
-  if (!users) {
+  if (!users_without(context, request, code)) {
     return code;
-  }
-  if (std::any_of(users->begin(), users->end(), [&](const auto& one) { return one.name == request.name; })) {
-    context.out.error(fmt::format("there is a user '{}' already; indurop users role {} ROLE changes the role",
-                                  request.name, request.name));
-    return kFailed;
   }
   config::PlantUser user{request.name, role_of(request.role), request.boards, request.variables, {}, {}};
   if (!request.no_password) {
@@ -168,6 +203,11 @@ int add(Context& context, const UsersRequest& request) {
       return kFailed;
     }
     user.password = std::move(*hash);
+  }
+  const base::Descriptor lock = lock_list(request);
+  auto users = users_without(context, request, code);  // again: it may have changed while the password was asked for
+  if (!users) {
+    return code;
   }
   users->push_back(std::move(user));
   code = save(context, request, *users);
@@ -189,53 +229,60 @@ std::string limit_text(const char* of, const std::vector<std::string>& limit) {
 }
 
 int set_role(Context& context, const UsersRequest& request) {
+  if (request.no_limits && !(request.boards.empty() && request.variables.empty())) {
+    context.out.error("--no-limits and a limit contradict each other");
+    return kUsage;
+  }
   return change_user(context, request, [&](auto& /*users*/, auto at) {
-    if (request.no_limits && !(request.boards.empty() && request.variables.empty())) {
-      context.out.error("--no-limits and a limit contradict each other");
-      return kUsage;
-    }
     at->role = role_of(request.role);
     set_limit(at->boards, request.boards, request.no_limits);
     set_limit(at->variables, request.variables, request.no_limits);
-    context.out.line(fmt::format("{} has the role {} now{}{}", request.name, request.role,
-                                 limit_text("boards", at->boards), limit_text("variables", at->variables)));
-    return kOk;
+    return std::optional(fmt::format("{} has the role {} now{}{}", request.name, request.role,
+                                     limit_text("boards", at->boards), limit_text("variables", at->variables)));
   });
 }
 
 int set_password(Context& context, const UsersRequest& request) {
+  int code = kOk;
+  auto users = open_users(context, request, code);
+  if (!users) {
+    return code;
+  }
+  if (find_user(context, request, *users) == users->end()) {
+    return kFailed;
+  }
+  const auto hash = ask_password(context, request.name);
+  if (!hash) {
+    return kFailed;
+  }
   return change_user(context, request, [&](auto& /*users*/, auto at) {
-    auto hash = ask_password(context, request.name);
-    if (!hash) {
-      return kFailed;
-    }
-    at->password = std::move(*hash);
-    context.out.line(fmt::format("{} has a new password; sessions with the former one end", request.name));
-    return kOk;
+    at->password = *hash;
+    return std::optional(fmt::format("{} has a new password; sessions with the former one end", request.name));
   });
 }
 
 int make_token(Context& context, const UsersRequest& request) {
-  return change_user(context, request, [&](auto& /*users*/, auto at) {
-    const std::string token = random_word();
+  const int code = change_user(context, request, [&](auto& /*users*/, auto at) -> std::optional<std::string> {
+    std::string token = random_word();
     if (token.empty()) {
       context.out.error("the system has no random numbers");
-      return kFailed;
+      return std::nullopt;
     }
     at->token = keys::hash_of_token(token);
-    context.out.line(token);
+    return token;
+  });
+  if (code == kOk) {
     context.out.note(
         "this token is shown once; a former one counts no more. Programs send it as "
         "'Authorization: Bearer TOKEN'");
-    return kOk;
-  });
+  }
+  return code;
 }
 
 int remove(Context& context, const UsersRequest& request) {
   return change_user(context, request, [&](auto& users, auto at) {
     users.erase(at);
-    context.out.line(fmt::format("{} is removed; open sessions end", request.name));
-    return kOk;
+    return std::optional(fmt::format("{} is removed; open sessions end", request.name));
   });
 }
 
