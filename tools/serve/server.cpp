@@ -78,7 +78,7 @@ Client Server::identify(const std::string& certificate) {
   if (!client.refusal.empty() || !ClientCertificates::is_person(certificate)) {
     return client;
   }
-  return users_.client_named(client.name).value_or(client);
+  return users_.client_certified(std::move(client));
 }
 
 std::optional<Reply> Server::refuse(Request& request) {

@@ -72,6 +72,30 @@ TEST_F(UserBookTest, Signs_in_with_the_password_only) {
   EXPECT_FALSE(sut.client_of_token(hash()));
 }
 
+TEST_F(UserBookTest, A_certificate_does_not_count_while_the_list_that_may_limit_it_cannot_be_used) {
+  config::PlantUser dora = anna_;
+  dora.name = "dora";
+  dora.role = config::UserRole::Look;
+  write({dora});
+  UserBook sut(file(), &now_ns);
+  const Client deployer{"dora", Role::Program, {}, {}, {}};
+  EXPECT_EQ(sut.client_certified(deployer).role, Role::Look);
+  EXPECT_EQ(sut.client_certified({"another", Role::Program, {}, {}, {}}).role, Role::Program) << "not in the list";
+  std::ofstream(folder_ / "new") << "<users><user name='dora' role='boss'/></users>";
+  fs::rename(folder_ / "new", file());
+  EXPECT_EQ(sut.client_certified(deployer).role, Role::Unknown);
+  EXPECT_NE(sut.client_certified(deployer).refusal, "");
+  fs::remove(file());
+  EXPECT_NE(sut.client_certified(deployer).refusal, "");
+  write({dora});
+  ::chmod(file().c_str(), 0666);
+  EXPECT_NE(sut.client_certified(deployer).refusal, "") << "others can change it";
+  ::chmod(file().c_str(), 0600);
+  EXPECT_EQ(sut.client_certified(deployer).role, Role::Look);
+  UserBook none;
+  EXPECT_EQ(none.client_certified(deployer).role, Role::Program);
+}
+
 TEST_F(UserBookTest, A_session_ends_by_sign_out_idling_and_age) {
   write({anna_});
   UserBook sut(file(), &now_ns);
