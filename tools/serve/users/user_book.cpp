@@ -46,7 +46,8 @@ void UserBook::refresh() {
   Version version;
   constexpr std::int64_t kSecondNs = 1'000'000'000;
   if (::stat(file_.c_str(), &found) == 0) {
-    version = {found.st_mtim.tv_sec * kSecondNs + found.st_mtim.tv_nsec, found.st_ino,
+    // Not the time of the content, which a user can set: a list that was restored may have that of another one.
+    version = {found.st_ctim.tv_sec * kSecondNs + found.st_ctim.tv_nsec, found.st_ino,
                static_cast<std::uint64_t>(found.st_size)};
   }
   if (version_ == version && problem_.empty()) {
@@ -106,7 +107,6 @@ std::optional<Client> UserBook::client_named(std::string_view name) {
   return user != nullptr ? std::optional(client_of(*user)) : std::nullopt;
 }
 
-std::optional<std::string> UserBook::sign_in(const std::string& name, const std::string& password,
 Client UserBook::client_certified(Client client) {
   if (!used()) {
     return client;
@@ -121,6 +121,7 @@ Client UserBook::client_certified(Client client) {
   return user != nullptr ? client_of(*user) : std::move(client);
 }
 
+std::optional<std::string> UserBook::sign_in(const std::string& name, const std::string& password,
                                              const std::string& from) {
   std::string hash;
   {

@@ -3,10 +3,12 @@
 
 #include "tools/serve/users/user_book.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <fstream>
 
 #include "config/users_reader.h"
@@ -70,6 +72,29 @@ TEST_F(UserBookTest, Signs_in_with_the_password_only) {
   EXPECT_FALSE(sut.client_of_token("logger-toke"));
   EXPECT_FALSE(sut.client_of_token(""));
   EXPECT_FALSE(sut.client_of_token(hash()));
+}
+
+TEST_F(UserBookTest, Notices_a_list_whose_times_and_size_are_those_of_the_one_before_and_who_may_change_it) {
+  write({{"anna", config::UserRole::Tune, {}, {}, {}, keys::hash_of_token("the-token")}});
+  UserBook sut(file(), &now_ns);
+  ASSERT_EQ(sut.client_of_token("the-token")->role, Role::Tune);
+  struct stat before {};
+  ASSERT_EQ(::stat(file().c_str(), &before), 0);
+  const std::string lower =
+      config::users_text({{"anna", config::UserRole::Look, {}, {}, {}, keys::hash_of_token("the-token")}});
+  std::fstream(file(), std::ios::in | std::ios::out) << lower;
+  const std::array<timespec, 2> times{before.st_atim, before.st_mtim};
+  struct stat after = before;
+  while (after.st_ctim.tv_sec == before.st_ctim.tv_sec && after.st_ctim.tv_nsec == before.st_ctim.tv_nsec) {
+    ASSERT_EQ(::utimensat(AT_FDCWD, file().c_str(), times.data(), 0), 0);  // the clock of the file system is coarse
+    ASSERT_EQ(::stat(file().c_str(), &after), 0);
+  }
+  ASSERT_EQ(after.st_size, before.st_size);
+  ASSERT_EQ(after.st_ino, before.st_ino);
+  EXPECT_EQ(sut.client_of_token("the-token")->role, Role::Look);
+  ::chmod(file().c_str(), 0666);
+  EXPECT_FALSE(sut.client_of_token("the-token"));
+  EXPECT_NE(sut.problem(), "");
 }
 
 TEST_F(UserBookTest, A_certificate_does_not_count_while_the_list_that_may_limit_it_cannot_be_used) {
