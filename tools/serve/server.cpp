@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <utility>
 
 #include "core/base/exit_code.h"
 #include "core/base/print.h"
 #include "core/rt/clock.h"
 #include "tools/client/process/gentle.h"
 #include "tools/client/process/interrupt.h"
+#include "tools/serve/api/answers.h"
 
 namespace indurop::serve {
 namespace {
@@ -62,7 +64,6 @@ Server::Server(tools::ServeOptions options, Admission admission, const std::stri
       hub_(boards_, version, {options_.foxglove, options_.foxglove_hz},
            [this](std::int64_t after_ns) { sampling_->set(after_ns); }),
       files_(options_.node, &remote_boards_, kFilesReader),
-      sign_in_(options_.node),
       orders_(options_.node),
       holds_(options_.node),
       history_(options_.node),
@@ -118,7 +119,7 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
     case Pace::Files:
       return hand_over(files_, std::move(match), ticket);
     case Pace::SignIn:
-      return hand_over(sign_in_, std::move(match), ticket);
+      return try_to_sign_in(std::move(match), ticket);
     case Pace::Orders:
       return hand_over(orders_, std::move(match), ticket);
     case Pace::Holds:
@@ -161,6 +162,30 @@ std::optional<Reply> Server::hand_over(Helper& helper, Match match, Ticket ticke
     return refusal(status::kUnavailable, "too many requests wait already; try again later");
   }
   return std::nullopt;
+std::optional<Reply> Server::try_to_sign_in(Match match, Ticket ticket) {
+  const Request& request = *match.call.request;
+  std::string user = answers::user_who_signs_in(request).value_or("");
+  if (!users_.client_named(user)) {
+    user.clear();  // names that exist are limited one by one, all others together
+  }
+  const auto attempt = sign_in_.limit.begin(request.from, user, rt::now_ns());
+  if (!attempt) {
+    return refusal(status::kUnavailable, "too many attempts to sign in from this address; try again in a few seconds");
+  }
+  const auto own = std::make_shared<Request>(request);
+  match.call.request = own.get();
+  const bool added = sign_in_.worker.add([this, own, match = std::move(match), ticket, attempt = *attempt] {
+    Reply reply = match.route->answer(api_, match.call);
+    sign_in_.limit.end(attempt, !reply.wrong_credentials.empty(), rt::now_ns());
+    door_->reply(ticket, std::move(reply));
+  });
+  if (!added) {
+    sign_in_.limit.end(*attempt, false, rt::now_ns());
+    return refusal(status::kUnavailable, "too many requests wait already; try again later");
+  }
+  return std::nullopt;
+}
+
 }
 
 std::optional<Reply> Server::ask_plant(Match match, Ticket ticket) {

@@ -23,6 +23,7 @@
 #include "tools/serve/leases/lease_desk.h"
 #include "tools/serve/page.h"
 #include "tools/serve/stream/hub.h"
+#include "tools/serve/users/sign_in_limit.h"
 #include "tools/serve/users/user_book.h"
 #include "tools/serve/worker.h"
 
@@ -53,11 +54,16 @@ class Server final : public House {
     Boards boards;
     Worker worker;
   };
+  struct SignIn {
+    SignInLimit limit;
+    Worker worker;  // verifies passwords
+  };
   std::optional<Reply> hand_over(Helper& helper, Match match, Ticket ticket);
   std::optional<Reply> let_wait(const Match& match, Ticket ticket);
   std::optional<Reply> ask_plant(Match match, Ticket ticket);
   std::optional<Reply> order_plant(Match match, Ticket ticket);
   std::optional<Reply> ask_plc(Match match, Ticket ticket);
+  std::optional<Reply> try_to_sign_in(Match match, Ticket ticket);
   // Returns true if the request is about a board of another host.
   [[nodiscard]] bool is_remote(const Match& match) const;
   std::optional<Reply> ask_remote(Match match, Ticket ticket);
@@ -81,7 +87,7 @@ class Server final : public House {
   std::unique_ptr<Door> door_;  // declared after everything its connections use
   std::unique_ptr<Door::Alarm> sampling_;
   Helper files_;
-  Helper sign_in_;
+  SignIn sign_in_;
   Helper orders_;
   Helper holds_;
   Helper history_;

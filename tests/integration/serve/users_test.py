@@ -4,6 +4,8 @@
 and what the audit log says. users_test.py PROGRAMS FAKE_NODE [TEST...]"""
 
 import hashlib
+import http.client
+import itertools
 import json
 import os
 import resource
@@ -11,6 +13,7 @@ import signal
 import socket
 import ssl
 import subprocess
+import threading
 import time
 
 import harness
@@ -21,10 +24,11 @@ PASSWORD = "correct horse"
 ROLES = ("look", "operate", "tune", "program", "administer")
 
 
-def hash_of(password, salt=None):
+def hash_of(password, salt=None, cost=10):
     """As users.xml keeps it; cheap, because these tests sign in often."""
     salt = salt or os.urandom(16)
-    return "scrypt:10:8:1:" + salt.hex() + ":" + hashlib.scrypt(password.encode(), salt=salt, n=2**10, r=8, p=1, dklen=32).hex()
+    hashed = hashlib.scrypt(password.encode(), salt=salt, n=2**cost, r=8, p=1, dklen=32, maxmem=2**27)
+    return f"scrypt:{cost}:8:1:" + salt.hex() + ":" + hashed.hex()
 
 
 class Users:
@@ -103,6 +107,41 @@ def test_wrong_passwords_are_refused_slowly_and_logged(setting):
         assert server.post(f"{API}/session", body, token=None).status == 400, body
     text = (setting.folder / "audit.jsonl").read_text()
     assert "wrong\"" not in text and PASSWORD not in text, "passwords are in no log"
+
+
+def test_guesses_of_many_connections_do_not_lock_others_out(setting):
+    """Each guess costs the server as much as with indurop users, and their clients do not wait for the refusal."""
+    slow = f'role="operate" password="{hash_of(PASSWORD, cost=15)}"'
+    server = serve(setting, Users(setting, anna=slow, ada=slow))
+    ended, refused, guesses = threading.Event(), threading.Semaphore(0), itertools.count()
+
+    def guess():
+        while not ended.is_set():
+            name = ("ada", f"stranger{next(guesses)}")[next(guesses) % 2]
+            connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=0.5)
+            try:
+                connection.request("POST", f"{API}/session", json.dumps({"user": name, "password": "a wrong one"}),
+                                   {"Content-Type": "application/json"})
+                if connection.getresponse().status == 503:
+                    refused.release()
+            except OSError:
+                pass
+            finally:
+                connection.close()
+
+    guessing = [threading.Thread(target=guess) for _ in range(40)]
+    for thread in guessing:
+        thread.start()
+    try:
+        for _ in range(100):
+            assert refused.acquire(timeout=harness.DEADLINE_S), "more guesses than the server verifies"
+        for _ in range(5):
+            assert sign_in(server, "anna"), "another user signs in meanwhile, even from the same address"
+    finally:
+        ended.set()
+        for thread in guessing:
+            thread.join()
+    wait_for(lambda: sign_in(server, "ada"), "the one whose password was guessed to sign in again")
 
 
 def test_limits_to_boards_and_variables(setting):

@@ -18,6 +18,8 @@ Reply server_status(Api& api, const Call& call);
 Reply audit(Api& api, const Call& call);
 Reply metrics(Api& api, const Call& call);
 
+// Returns the name in a request to sign in; nothing: it has none.
+std::optional<std::string> user_who_signs_in(const Request& request);
 Reply sign_in(Api& api, const Call& call);
 Reply session(Api& api, const Call& call);
 Reply sign_out(Api& api, const Call& call);

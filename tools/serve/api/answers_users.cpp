@@ -33,6 +33,12 @@ void note(Api& api, const Call& call, const std::string& who, const char* action
 }  // namespace
 
 Reply sign_in(Api& api, const Call& call) {
+std::optional<std::string> user_who_signs_in(const Request& request) {
+  const auto json = base::Json::parse(request.body);
+  std::string user;
+  return json && base::read(*json, "user", user) ? std::optional(std::move(user)) : std::nullopt;
+}
+
   if (!api.users().used()) {
     return refusal(status::kNotFound, "this server has no users; start it with --users FILE");
   }
