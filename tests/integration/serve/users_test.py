@@ -185,6 +185,12 @@ def test_a_change_of_the_list_counts_at_once(setting):
     assert held.status == 200, held.body
     lease = held.json()["lease"]
     assert server.post(f"{board}/leases/{lease}/renew", None, token).status == 200
+    users.write(anna=f'role="tune" password="{hashed}" variables="another::*"')
+    assert server.post(f"{board}/leases/{lease}/renew", None, token).status == 404, "she may not change this variable"
+    wait_for(lambda: not server.get(f"{board}/forces").json()["forces"], "the force to end with the right to it")
+    assert any("may no longer change" in entry["outcome"] for entry in entries(setting))
+    users.write(anna=f'role="tune" password="{hashed}"')
+    lease = server.post(f"{board}/force", {"values": {"gain": 4.5}, "lease": True}, token).json()["lease"]
     users.write(anna=f'role="operate" password="{hashed}"')
     assert server.post(f"{board}/leases/{lease}/renew", None, token).status == 403, "she may not force any more"
     wait_for(lambda: not server.get(f"{board}/forces").json()["forces"], "the force to end with its lease")

@@ -143,7 +143,8 @@ Board::Done LocalBoard::force(const WriteRequest& request, ChangeNote& note, Lea
   }
   base::Json body{{"forced", base::Json(names_of(*values))}};
   if (request.lease) {
-    body["lease"] = leases.take(name(), note.who(), text_of(request), *store, std::move(held).value());
+    body["lease"] =
+        leases.take(name(), {note.who(), text_of(request), names_of(*values)}, *store, std::move(held).value());
     body["lease_ns"] = LeaseDesk::kLeaseNs;
   }
   return body;

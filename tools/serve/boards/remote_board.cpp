@@ -229,14 +229,15 @@ Board::Done RemoteBoard::force(const WriteRequest& request, ChangeNote& note, Le
     return write(Order::What::Force, request, note);
   }
   auto [order, names] = order_of(Order::What::Force, request);
-  if (auto refused = prepare(order, {full_names(names)}, note)) {
+  const std::vector<std::string> full = full_names(names);
+  if (auto refused = prepare(order, {full}, note)) {
     return std::move(*refused);
   }
   const auto board = watch_->report(name());
   if (!board) {
     return not_done(board.error());
   }
-  const auto lease = leases.take(*board, note.who(), text_of(request), order);
+  const auto lease = leases.take(*board, {note.who(), text_of(request), full}, order);
   if (!lease) {
     return not_done(lease.error());
   }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/serve/leases/lease_desk.h"
 
+#include <algorithm>
 #include <utility>
+
+#include "core/base/name_patterns.h"
 
 namespace indurop::serve {
 
@@ -16,12 +19,12 @@ bool LeaseDesk::Held::bind(const vars::Store& store) {
   return true;
 }
 
-std::string LeaseDesk::take(const std::string& board, const operate::Who& who, const std::string& what,
-                            const vars::Store& store, operate::Lease lease) {
+std::string LeaseDesk::take(const std::string& board, Taken taken, const vars::Store& store, operate::Lease lease) {
   Held held;
   held.board = board;
-  held.who = who;
-  held.what = what;
+  held.who = std::move(taken.who);
+  held.what = std::move(taken.what);
+  held.variables = std::move(taken.variables);
   held.layout_hash = store.layout_hash();
   held.generation = store.header().generation.load();
   held.lease = std::move(lease);
@@ -31,8 +34,7 @@ std::string LeaseDesk::take(const std::string& board, const operate::Who& who, c
   return desk_.add(std::move(held));
 }
 
-Result<std::string, tools::Failure> LeaseDesk::take(const deploy::BoardReport& board, const operate::Who& who,
-                                                    const std::string& what,
+Result<std::string, tools::Failure> LeaseDesk::take(const deploy::BoardReport& board, Taken taken,
                                                     const tools::PlantWatch::RemoteOrder& order) {
   if (keeper_ == nullptr) {
     auto opened = tools::LeaseKeeper::open(link_);
@@ -48,8 +50,9 @@ Result<std::string, tools::Failure> LeaseDesk::take(const deploy::BoardReport& b
   }
   Held held;
   held.board = board.board;
-  held.who = who;
-  held.what = what;
+  held.who = std::move(taken.who);
+  held.what = std::move(taken.what);
+  held.variables = std::move(taken.variables);
   held.remote = *number;
   return desk_.add(std::move(held));
 }
@@ -73,22 +76,33 @@ const char* LeaseDesk::renew(Held& held) {
              : "lost: another user released or re-forced one of the values, or the node was started again";
 }
 
-bool LeaseDesk::renew(const std::string& board, const std::string& name, const std::string& who) {
+void LeaseDesk::release(Held& held) {
+  if (held.remote) {
+    keeper_->end(*held.remote);
+    return;
+  }
+  auto store = vars::Store::attach(held.board, vars::Mode::ReadWrite);
+  if (store && held.bind(*store)) {
+    operate::end(held.board, *store, held.lease, held.who);
+  }
+}
+
+bool LeaseDesk::renew(const std::string& board, const std::string& name, const Client& client) {
   end_overdue();
-  return desk_.keep(board, name, who, [this](Held& held) { return renew(held); });
+  return desk_.keep(board, name, client.name, [&](Held& held) -> const char* {
+    const bool may = std::all_of(held.variables.begin(), held.variables.end(), [&client](const std::string& variable) {
+      return base::matches_any_variable(client.variables, variable);
+    });
+    if (!may) {
+      release(held);
+      return "ended: its user may no longer change the variables";
+    }
+    return renew(held);
+  });
 }
 
 bool LeaseDesk::end(const std::string& board, const std::string& name, const std::string& who) {
-  return desk_.end(board, name, who, [this](Held& held) {
-    if (held.remote) {
-      keeper_->end(*held.remote);
-      return;
-    }
-    auto store = vars::Store::attach(held.board, vars::Mode::ReadWrite);
-    if (store && held.bind(*store)) {
-      operate::end(held.board, *store, held.lease, held.who);
-    }
-  });
+  return desk_.end(board, name, who, [this](Held& held) { release(held); });
 }
 
 void LeaseDesk::end_overdue() {

@@ -17,6 +17,7 @@
 #include "tools/client/board/lease_keeper.h"
 #include "tools/serve/audit.h"
 #include "tools/serve/desk.h"
+#include "tools/serve/door/request.h"
 #include "tools/serve/worker.h"
 
 namespace indurop::serve {
@@ -32,16 +33,22 @@ class LeaseDesk {
   LeaseDesk& operator=(const LeaseDesk&) = delete;
   ~LeaseDesk();
 
+  // A force that a client takes.
+  struct Taken {
+    operate::Who who;
+    std::string what;                    // for the audit log
+    std::vector<std::string> variables;  // full names
+  };
   // Starts a lease; may be called by any thread. Returns the name to renew it by, which cannot be guessed. `store`: the
   // current one of the board.
-  std::string take(const std::string& board, const operate::Who& who, const std::string& what, const vars::Store& store,
-                   operate::Lease lease);
+  std::string take(const std::string& board, Taken taken, const vars::Store& store, operate::Lease lease);
   // The same for a board of another host: sends the force and waits until the board has answered, a few seconds at
   // most. Called by one thread.
-  Result<std::string, tools::Failure> take(const deploy::BoardReport& board, const operate::Who& who,
-                                           const std::string& what, const tools::PlantWatch::RemoteOrder& order);
-  // Returns false if there is no such lease of this client, or it has ended.
-  bool renew(const std::string& board, const std::string& name, const std::string& who);
+  Result<std::string, tools::Failure> take(const deploy::BoardReport& board, Taken taken,
+                                           const tools::PlantWatch::RemoteOrder& order);
+  // Returns false if there is no such lease of this client, or it has ended: also if the client may no longer change
+  // the variables.
+  bool renew(const std::string& board, const std::string& name, const Client& client);
   // A board of another host releases the force shortly after.
   bool end(const std::string& board, const std::string& name, const std::string& who);
   // Removes leases that were not renewed in time, and logs it.
@@ -49,6 +56,7 @@ class LeaseDesk {
 
  private:
   struct Held : HeldBase {
+    std::vector<std::string> variables;   // full names
     std::optional<std::uint64_t> remote;  // the number of a lease of keeper_; the rest is for one of this host
     std::vector<std::uint64_t> names;     // hashes of the variables, in the order of lease.values
     std::uint64_t layout_hash = 0;
@@ -59,6 +67,7 @@ class LeaseDesk {
 
   // Returns the outcome if the lease has ended.
   const char* renew(Held& held);
+  void release(Held& held);
 
   const deploy::LinkSettings& link_;
   std::unique_ptr<tools::LeaseKeeper> keeper_;  // null until the first lease of a board of another host
