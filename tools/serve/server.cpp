@@ -100,9 +100,7 @@ void Server::note_refused(const Request& request, const std::string& why, std::u
   entry.action = "refused";
   entry.what = request.path;
   entry.outcome = count > 1 ? fmt::format("{} ({} times)", why, count) : why;
-  // Not on this thread, which must not wait for a disk. An entry that is lost because too many jobs wait is reported
-  // with the next one.
-  (void)holds_.worker.add([this, entry = std::move(entry)] { (void)audit_.note(entry); });
+  audit_.note_soon(std::move(entry));
 }
 
 std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
@@ -162,6 +160,8 @@ std::optional<Reply> Server::hand_over(Helper& helper, Match match, Ticket ticke
     return refusal(status::kUnavailable, "too many requests wait already; try again later");
   }
   return std::nullopt;
+}
+
 std::optional<Reply> Server::try_to_sign_in(Match match, Ticket ticket) {
   const Request& request = *match.call.request;
   std::string user = answers::user_who_signs_in(request).value_or("");
@@ -184,8 +184,6 @@ std::optional<Reply> Server::try_to_sign_in(Match match, Ticket ticket) {
     return refusal(status::kUnavailable, "too many requests wait already; try again later");
   }
   return std::nullopt;
-}
-
 }
 
 std::optional<Reply> Server::ask_plant(Match match, Ticket ticket) {

@@ -144,6 +144,37 @@ def test_guesses_of_many_connections_do_not_lock_others_out(setting):
     wait_for(lambda: sign_in(server, "ada"), "the one whose password was guessed to sign in again")
 
 
+def test_a_flood_of_requests_keeps_no_refusal_out_of_the_log(setting):
+    setting.start_node()
+    server = serve(setting, Users(setting, anna=user("operate"), eve=user("look")))
+    anna, eve = sign_in(server, "anna"), sign_in(server, "eve")
+    board = f"{API}/boards/{setting.node}"
+    keep = f"POST {board}/jog/none/keep HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: Bearer {anna}\r\n\r\n".encode()
+    ended = threading.Event()
+
+    def flood():
+        while not ended.is_set():
+            connections = [socket.create_connection(("127.0.0.1", server.port), timeout=harness.DEADLINE_S) for _ in range(50)]
+            for connection in connections:
+                connection.sendall(keep)
+            for connection in connections:
+                connection.recv(4096)
+                connection.close()
+
+    flooding = [threading.Thread(target=flood) for _ in range(2)]
+    for thread in flooding:
+        thread.start()
+    try:
+        for _ in range(20):
+            assert server.post(f"{board}/lock", {"lock": "none"}, eve).status == 403
+    finally:
+        ended.set()
+        for thread in flooding:
+            thread.join()
+    wait_for(lambda: sum(entry["who"] == "eve" and entry["action"] == "refused" for entry in entries(setting)) == 20,
+             "an entry for each refusal")
+
+
 def test_limits_to_boards_and_variables(setting):
     setting.start_node()
     node = setting.node
@@ -285,6 +316,16 @@ def test_nothing_is_said_of_a_change_that_could_not_be_saved(setting):
                               preexec_fn=no_room, check=False)
         assert done.returncode == 1 and "cannot write" in done.stderr and done.stdout == "", (words, done)
     assert users.file.read_bytes() == before
+
+
+def test_sessions_are_not_ended_without_an_entry_in_the_log(setting):
+    server = serve(setting, Users(setting, anna=user("operate"), ada=user("administer")))
+    anna, ada = sign_in(server, "anna"), sign_in(server, "ada")
+    (setting.folder / "audit.jsonl").unlink()
+    (setting.folder / "audit.jsonl").symlink_to("/dev/full")
+    answer = server.post(f"{API}/users/anna/end", None, ada)
+    assert answer.status == 500 and "No space left" in answer.json()["message"], answer.body
+    assert server.get(f"{API}/session", Authorization=f"Bearer {anna}").status == 200
 
 
 def test_tls_by_the_authority_of_the_plant(setting):

@@ -19,26 +19,27 @@ base::Json about_client(const Client& client) {
   return body;
 }
 
-void note(Api& api, const Call& call, const std::string& who, const char* action, const std::string& what,
-          const std::string& outcome) {
+// Returns why it could not be noted, else an empty text.
+std::string note(Api& api, const Call& call, const std::string& who, const char* action, const std::string& what,
+                 const std::string& outcome) {
   AuditEntry entry;
   entry.who = who;
   entry.from = call.request->from;
   entry.action = action;
   entry.what = what;
   entry.outcome = outcome;
-  static_cast<void>(api.audit().note(entry));
+  return api.audit().note(entry);
 }
 
 }  // namespace
 
-Reply sign_in(Api& api, const Call& call) {
 std::optional<std::string> user_who_signs_in(const Request& request) {
   const auto json = base::Json::parse(request.body);
   std::string user;
   return json && base::read(*json, "user", user) ? std::optional(std::move(user)) : std::nullopt;
 }
 
+Reply sign_in(Api& api, const Call& call) {
   if (!api.users().used()) {
     return refusal(status::kNotFound, "this server has no users; start it with --users FILE");
   }
@@ -54,7 +55,7 @@ std::optional<std::string> user_who_signs_in(const Request& request) {
     reply.wrong_credentials = fmt::format("wrong user or password, as '{}'", user.substr(0, 40));
     return reply;
   }
-  note(api, call, user, "sign in", "", "done");
+  static_cast<void>(note(api, call, user, "sign in", "", "done"));  // it changes nothing
   const auto client = api.users().client_of_token(*token);
   base::Json body = about_client(client.value_or(Client{}));
   body["token"] = *token;
@@ -100,8 +101,12 @@ Reply end_sessions(Api& api, const Call& call) {
   if (!api.users().client_named(user)) {
     return refusal(status::kNotFound, fmt::format("there is no user '{}'", user));
   }
+  if (const std::string problem = note(api, call, call.who, "end sessions", user, "begun"); !problem.empty()) {
+    return refusal(status::kFailed, fmt::format("no session was ended, because it cannot be noted down in {}: {}",
+                                                api.audit().file().string(), problem));
+  }
   const std::size_t ended = api.users().end_sessions(user);
-  note(api, call, call.who, "end sessions", user, fmt::format("{} ended", ended));
+  static_cast<void>(note(api, call, call.who, "end sessions", user, fmt::format("{} ended", ended)));
   return json_reply(base::Json{{"user", user}, {"ended", ended}});
 }
 
