@@ -10,13 +10,18 @@ let begin_ms = 0;
 let written = 0;
 let omitted = 0;
 
+// Names that clients send may contain line breaks and escape sequences of terminals.
+function one_line(text: string): string {
+  return text.replace(/[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/gu, "?");
+}
+
 export function log(text: string): void {
   const now = Date.now();
   if (now - begin_ms > MINUTE_MS) {
     if (omitted > 0) process.stderr.write(`indurop-opcua: ${omitted} further messages were omitted\n`);
     [begin_ms, written, omitted] = [now, 0, 0];
   }
-  if (written++ < MOST_A_MINUTE) process.stderr.write(`indurop-opcua: ${text}\n`);
+  if (written++ < MOST_A_MINUTE) process.stderr.write(`indurop-opcua: ${one_line(text)}\n`);
   else omitted++;
 }
 

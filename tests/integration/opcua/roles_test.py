@@ -81,9 +81,11 @@ def test_who_may_not_enter(setting):
     refused(client.connect)
     assert "Bad" in refused(lambda: client.connect(user="anna", password="wrong", **SECURE))
     assert "Bad" in refused(lambda: client.connect(user="eve", password=PASSWORD, **SECURE))
+    assert "Bad" in refused(lambda: client.connect(user="no\nbody\x1b[2J", password=PASSWORD, **SECURE))
     client.connect(user="anna", password=PASSWORD, mode="SignAndEncrypt", policy="Aes128_Sha256_RsaOaep")
     assert client.read(setting.id("knu::Robot::gain"))["code"] == "Good"
-    assert "'eve' cannot sign in" in setting.log.read_text()
+    log = setting.log.read_text()
+    assert "'eve' cannot sign in" in log and "'no?body?[2J' cannot sign in" in log, "a name forges no line of the log"
 
 
 def test_a_user_who_is_removed_is_out(setting):
