@@ -51,13 +51,13 @@ std::string describe(int status) {
 }  // namespace
 
 BoardProcess::BoardProcess(std::string board, std::vector<std::string> arguments, BlackBox black_box, Verify verify,
-                           const base::Log& log)
+                           const base::Log& log, int program)
     : board_(std::move(board)),
       arguments_(std::move(arguments)),
       black_box_(std::move(black_box)),
       verify_(std::move(verify)),
       log_(log),
-      program_(open_node_program()),
+      program_(program),
       output_(log.has_journal() ? fmt::format("indurop-node[{}]: ", board_) : "") {}
 
 BoardProcess::~BoardProcess() {
@@ -194,12 +194,14 @@ bool BoardProcess::ended(int& status) {
 }
 
 void BoardProcess::note_end(int status, rt::MonoTime now) {
-  const bool commanded = asked_to_stop_;
+  // A node of another deployment than the one that should run would have been ended by the next step.
+  const bool commanded = asked_to_stop_ || running_ != deployment_;
   pid_ = -1;
   asked_to_stop_ = false;
   run_.reset();
   faults_before_.clear();
   if (commanded) {
+    hung_.clear();
     condition_ = held_.empty() ? NodeCondition::None : NodeCondition::Stopped;
     return;
   }

@@ -19,6 +19,7 @@
 #include "core/rt/clock.h"
 #include "deploy/agent/black_box.h"
 #include "deploy/agent/node_output.h"
+#include "deploy/agent/node_program.h"
 #include "deploy/agent/tick_watch.h"
 #include "deploy/words/deployment_words.h"
 #include "store/vars/run_file.h"
@@ -35,9 +36,9 @@ class BoardProcess {
   using Verify = std::function<std::string(const std::string& deployment)>;
 
   // `arguments`: for every node started, in addition to the manifest and the board. `verify` is called before every
-  // start.
+  // start. `program`: indurop-node, an open file that is closed in the end.
   BoardProcess(std::string board, std::vector<std::string> arguments, BlackBox black_box, Verify verify,
-               const base::Log& log);
+               const base::Log& log, int program = open_node_program());
   BoardProcess(const BoardProcess&) = delete;
   BoardProcess& operator=(const BoardProcess&) = delete;
   ~BoardProcess();
