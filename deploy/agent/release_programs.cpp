@@ -69,6 +69,24 @@ std::optional<int> status_of(pid_t pid) {
   return status;
 }
 
+// Runs a program for its version. Returns why that failed; empty if it did not.
+std::string what_prevents(const fs::path& program, const std::vector<std::string>& environment) {
+  const base::Descriptor output(::memfd_create("indurop-release", MFD_CLOEXEC));
+  const auto pid = base::spawn({.words = {program.string(), "--version"},
+                                .program = program,
+                                .environment = environment,
+                                .output = output.get(),
+                                .fresh_signals = true});
+  if (!pid) {
+    return fmt::format("{}: {}", program.string(), std::strerror(pid.error().sys_errno));
+  }
+  const auto status = status_of(*pid);
+  if (!status) {
+    return fmt::format("{} --version does not end", program.filename().string());
+  }
+  return base::exit_code_of(*status) == 0 ? std::string() : first_line_of(output.get());
+}
+
 }  // namespace
 
 Result<ReleasePrograms, Problem> sound_release(const DeploymentFiles& files, const std::string& id) {
@@ -127,22 +145,14 @@ std::vector<std::string> release_environment(const fs::path& platform, const fs:
 }
 
 Result<void, Problem> try_release(const DeploymentFiles& files, const ReleasePrograms& release) {
-  const base::Descriptor output(::memfd_create("indurop-release", MFD_CLOEXEC));
-  const auto pid = base::spawn({.words = {release.agent.string(), "--version"},
-                                .program = release.agent,
-                                .environment = release_environment(files.folder(), release.libraries, {}),
-                                .output = output.get(),
-                                .fresh_signals = true});
-  const std::string failure = fmt::format("release {} cannot run on this board", release.version);
-  if (!pid) {
-    return Problem{fmt::format("{}: {}: {}", failure, release.agent.string(), std::strerror(pid.error().sys_errno))};
+  const fs::path node = release.agent.parent_path() / "indurop-node";
+  for (const fs::path& program : {release.agent, node}) {
+    const std::string what = what_prevents(program, release_environment(files.folder(), release.libraries, {}));
+    if (!what.empty()) {
+      return Problem{fmt::format("release {} cannot run on this board: {}", release.version, what)};
+    }
   }
-  const auto status = status_of(*pid);
-  if (!status) {
-    return Problem{fmt::format("{}: indurop-agent --version does not end", failure)};
-  }
-  return base::exit_code_of(*status) == 0 ? Result<void, Problem>()
-                                          : Problem{fmt::format("{}: {}", failure, first_line_of(output.get()))};
+  return {};
 }
 
 }  // namespace indurop::deploy

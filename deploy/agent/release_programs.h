@@ -34,8 +34,8 @@ std::vector<std::string> release_environment(const std::filesystem::path& platfo
                                              const std::filesystem::path& libraries,
                                              const std::vector<std::string>& further);
 
-// Runs the agent for its version, which shows whether this machine can run it: libraries of the system, mount options.
-// A problem says what happened. Waits for at most some seconds.
+// Runs the agent and the node for their versions, which shows whether this machine can run them: libraries of the
+// system, mount options. A problem says what happened. Waits for at most some seconds.
 Result<void, base::Problem> try_release(const DeploymentFiles& files, const ReleasePrograms& release);
 
 }  // namespace indurop::deploy

@@ -105,14 +105,16 @@ TEST_F(Platform, A_plant_is_no_release_and_a_release_no_plant) {
 }
 
 TEST_F(Platform, A_release_that_cannot_run_here_is_refused_before_the_switch) {
-  const std::string prefix = installation("lacking");
-  // Its programs need a library that no board has.
-  std::filesystem::remove(prefix + "/bin/indurop-agent");
-  std::filesystem::copy_file(LACKING_PROGRAM, prefix + "/bin/indurop-agent");
-  const Outcome refused = update(packed("9.1", prefix));
-  EXPECT_EQ(refused.code, 4) << refused.err;
-  EXPECT_THAT(refused.err, HasSubstr("release 9.1 cannot run on this board"));
-  EXPECT_TRUE(nothing_has_changed());
+  for (const std::string program : {"indurop-agent", "indurop-node"}) {
+    const std::string prefix = installation("lacking-" + program);
+    // It needs a library that no board has.
+    std::filesystem::remove(prefix + "/bin/" + program);
+    std::filesystem::copy_file(LACKING_PROGRAM, prefix + "/bin/" + program);
+    const Outcome refused = update(packed("9.1", prefix));
+    EXPECT_EQ(refused.code, 4) << refused.err;
+    EXPECT_THAT(refused.err, HasSubstr("release 9.1 cannot run on this board"));
+    EXPECT_TRUE(nothing_has_changed());
+  }
 }
 
 TEST_F(Platform, The_second_of_two_desks_is_busy) {
