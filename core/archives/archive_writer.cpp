@@ -5,6 +5,8 @@
 #include <archive.h>
 #include <archive_entry.h>
 
+#include <cstring>
+
 namespace indurop::archives {
 ArchiveWriter::ArchiveWriter() : archive_(::archive_write_new(), &::archive_write_free) {}
 
@@ -23,7 +25,9 @@ bool ArchiveWriter::begin(const std::string& member, std::uint64_t size, bool ex
   ::archive_entry_set_filetype(entry.get(), AE_IFREG);
   ::archive_entry_set_perm(entry.get(), executable ? 0755 : 0644);
   ::archive_entry_set_mtime(entry.get(), 0, 0);
-  return ::archive_write_header(archive_.get(), entry.get()) == ARCHIVE_OK;
+  // The warning says that a name is not ASCII: no locale is set to translate it from, so it is written as it is.
+  const int code = ::archive_write_header(archive_.get(), entry.get());
+  return code == ARCHIVE_OK || code == ARCHIVE_WARN;
 }
 
 bool ArchiveWriter::add(std::string_view bytes) {
@@ -40,7 +44,10 @@ bool ArchiveWriter::close() {
 
 std::string ArchiveWriter::message() const {
   const char* text = ::archive_error_string(archive_.get());
-  return text == nullptr ? "unknown error" : text;
+  const int error = ::archive_errno(archive_.get());
+  const std::string reason =
+      error > 0 ? std::string(": ") + std::strerror(error) : std::string();  // it says only "Write error"
+  return (text == nullptr ? "unknown error" : text) + reason;
 }
 
 }  // namespace indurop::archives

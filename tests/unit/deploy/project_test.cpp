@@ -76,5 +76,21 @@ TEST_F(ProjectArchive, Paths_that_lead_outside_and_links_are_refused) {
   EXPECT_THAT(problem(), testing::HasSubstr("damaged"));
 }
 
+TEST_F(ProjectArchive, Names_are_bytes) {
+  const std::string umlaut = "m\xc3\xbcller.txt";  // UTF-8
+  const std::string other = "bad\xff\xfe";
+  const std::string odd = "a\nb 'c' \"d\"";
+  const files::path text = make("t", "x");
+  ASSERT_TRUE(write_project({{"manifest", "z"}}, {{umlaut, text}, {other, text}, {odd, text}}, folder_ / "p"));
+  const auto sut = open_project(folder_ / "p", folder_ / "out");
+  ASSERT_TRUE(sut) << sut.error().text;
+  EXPECT_THAT(sut->paths, testing::ElementsAre(umlaut, other, odd));
+  EXPECT_EQ(content_of(folder_ / "out" / umlaut), "x");
+  const std::string list =
+      "LC_ALL=C.UTF-8 tar --zstd -tf " + (folder_ / "p").string() + " > " + (folder_ / "list").string();
+  ASSERT_EQ(std::system(list.c_str()), 0);
+  EXPECT_THAT(content_of(folder_ / "list"), testing::HasSubstr("source/" + umlaut + "\n"));
+}
+
 }  // namespace
 }  // namespace indurop::deploy
