@@ -7,6 +7,7 @@
 #include <indurop/result.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ namespace indurop::deploy {
 
 // Path of the archive among the files of a package.
 inline constexpr const char* kProjectPath = ".indurop/project.tar.zst";
+
+// Size of all sources of a plant, at most.
+inline constexpr std::uint64_t kMaxProjectBytes = std::uint64_t{64} << 20U;
 
 // A file of a project: its path in the project and where it is now.
 struct ProjectFile {
@@ -34,7 +38,8 @@ struct OpenedProject {
   std::vector<std::string> paths;  // of the files that were unpacked
 };
 // Unpacks a project into `folder`, which must exist and be empty. Nothing outside of it is written, regardless of who
-// made the archive. Errors: damaged, paths that lead outside, files that cannot be written.
+// made the archive, and after an error nothing is left in it. Errors: damaged, paths that lead outside or into a
+// repository of git, larger than kMaxProjectBytes, files that cannot be written.
 Result<OpenedProject, base::Problem> open_project(const std::filesystem::path& archive,
                                                   const std::filesystem::path& folder);
 

@@ -144,6 +144,12 @@ TEST_F(Deploying, The_sources_come_back_from_a_board) {
     EXPECT_FALSE(std::filesystem::exists(folder() / "back" / none)) << none;
   }
   EXPECT_EQ(indurop({"pull", path("back")}).code, 1) << "it is not empty";
+  // In no work tree any more; the modules are as they were built.
+  std::filesystem::copy(folder() / "back", folder().string() + "-back", std::filesystem::copy_options::recursive);
+  std::filesystem::copy_file(folder() / "steady.so", folder().string() + "-back/steady.so");
+  const Outcome same = indurop({"diff", folder().string() + "-back/v1.xml"});
+  EXPECT_EQ(same.code, 0) << same.out << same.err;
+  std::filesystem::remove_all(folder().string() + "-back");
 
   std::ofstream(folder() / "src/deep/a.cpp") << "int b;\n";
   const Outcome different = indurop({"diff", file, "-o", "json"});

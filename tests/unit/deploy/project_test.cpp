@@ -92,5 +92,24 @@ TEST_F(ProjectArchive, Names_are_bytes) {
   EXPECT_THAT(content_of(folder_ / "list"), testing::HasSubstr("source/" + umlaut + "\n"));
 }
 
+// Made by tar, again.
+TEST_F(ProjectArchive, Nothing_is_left_of_one_that_is_refused) {
+  make("project.json", "{}");
+  files::create_directories(folder_ / "source/a/.git");
+  make("source/a/good", "x");
+  make("source/a/.git/config", "[core]\n");
+  const std::string tar = "cd " + folder_.string() + " && ";
+  const auto refused = [&](const std::string& members) {
+    EXPECT_EQ(std::system((tar + "tar --zstd -cf p project.json " + members).c_str()), 0);
+    EXPECT_THAT(problem(), testing::HasSubstr("damaged")) << members;
+    EXPECT_TRUE(files::is_empty(folder_ / "out")) << members;
+  };
+  refused("source/a/good source/a/.git/config");
+  refused("--hard-dereference source/a/good source/a/good");
+  files::resize_file(make("source/huge", ""), kMaxProjectBytes / 2 + 1);
+  files::copy_file(folder_ / "source/huge", folder_ / "source/second");
+  refused("source/a/good source/huge source/second");
+}
+
 }  // namespace
 }  // namespace indurop::deploy

@@ -90,6 +90,12 @@ Result<std::size_t, Failure> compare_sources(DiscoveredBoards& boards, std::uint
   }
   for (const std::string& path : fetched->paths) {
     there.emplace(path, digest_at(folder.path() / path));
+    // What was pulled is in no work tree of git, where hidden files are no sources, but these were.
+    const std::filesystem::path file = project->folder / path;
+    std::error_code error;
+    if (!here.contains(path) && std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error))) {
+      here.emplace(path, digest_at(file));
+    }
   }
   return compare("source", here, there, table);
 }

@@ -8,6 +8,7 @@
 #include "deploy/link/link_keys.h"
 #include "tools/cli/plant/running_project.h"
 #include "tools/cli/verbs/verbs.h"
+#include "tools/client/text/units.h"
 #include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
@@ -35,7 +36,7 @@ std::string description_of(const JsonValue& about) {
   if (!git.is_object()) {
     return "not from a git repository";
   }
-  return fmt::format("git commit {}{}", git["commit"].text().value_or("?").substr(0, 12),
+  return fmt::format("git commit {}{}", printable(git["commit"].text().value_or("?").substr(0, 12)),
                      git["changed"].boolean().value_or(false) ? " with changes that were not committed" : "");
 }
 
@@ -62,7 +63,8 @@ int pull(Context& context, PullOptions& options) {
   context.out.line(fmt::format("{}: plant {}, deployment {}, {}, {}", folder.string(), running->plant,
                                deploy::shown_id(running->id), counted(project->paths.size(), "file"),
                                description_of(project->about)));
-  context.out.line(fmt::format("manifest: {}", (folder / project->about["manifest"].text().value_or("")).string()));
+  context.out.line(
+      fmt::format("manifest: {}", printable((folder / project->about["manifest"].text().value_or("")).string())));
   return kOk;
 }
 
