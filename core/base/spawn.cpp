@@ -51,6 +51,9 @@ class Preparation {
       ::posix_spawn_file_actions_adddup2(&actions_, launch.output, STDOUT_FILENO);
       ::posix_spawn_file_actions_adddup2(&actions_, launch.output, STDERR_FILENO);
     }
+    if (launch.errors >= 0) {
+      ::posix_spawn_file_actions_adddup2(&actions_, launch.errors, STDERR_FILENO);
+    }
     if (launch.inherits >= 0) {
       ::posix_spawn_file_actions_adddup2(&actions_, launch.inherits, launch.inherits);  // clears O_CLOEXEC
     }
@@ -95,6 +98,9 @@ class Preparation {
   if (launch.output >= 0) {
     ::dup2(launch.output, STDOUT_FILENO);
     ::dup2(launch.output, STDERR_FILENO);
+  }
+  if (launch.errors >= 0) {
+    ::dup2(launch.errors, STDERR_FILENO);
   }
   if (launch.inherits >= 0) {
     (void)::fcntl(launch.inherits, F_SETFD, 0);

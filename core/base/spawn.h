@@ -23,7 +23,8 @@ struct Launch {
   std::optional<std::vector<std::string>> environment = std::nullopt;  // "NAME=value"; ours if not given
   Group group = Group::Ours;
   int input = -1;              // an open file for standard input; -1: ours
-  int output = -1;             // an open file for standard output and error; -1: ours
+  int output = -1;             // an open file for standard output, and error unless `errors` is given; -1: ours
+  int errors = -1;             // an open file for standard error; -1: that of output
   int inherits = -1;           // a file the program gets under the same number, although closed to others; -1: none
   bool fresh_signals = false;  // no signal is blocked or ignored, whatever we do
   // The signal the program gets when the thread that starts it ends; 0: it lives on. Costs a fork: not in real-time

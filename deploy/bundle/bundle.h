@@ -40,6 +40,9 @@ Result<void, base::Problem> write_bundle(const PackedPlant& packed, const Bundle
 // Returns true if the file begins as a bundle does.
 bool is_bundle(const std::filesystem::path& file);
 
+// Returns true for what indurop pack, platform pack and package write, also for what they have not finished.
+bool is_packed_plant(const std::filesystem::path& file);
+
 struct OpenedBundle {
   PackedPlant packed;  // its sources are files in `folder`
   BundleSignature signature;

@@ -136,6 +136,15 @@ bool is_bundle(const std::filesystem::path& file) {
          std::string_view(begin.data(), begin.size()) == kZstdBegin;
 }
 
+bool is_packed_plant(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  if (name.starts_with("indurop-plant-") && (name.ends_with(".deb") || name.ends_with(".deb.part"))) {
+    return true;
+  }
+  archives::ArchiveReader archive;
+  return is_bundle(file) && archive.open(file) && archive.next() && archive.name() == kPackageMember;
+}
+
 Result<OpenedBundle, Problem> open_bundle(const std::filesystem::path& file, const std::filesystem::path& folder) {
   BundleReader bundle(file);
   if (!is_bundle(file)) {

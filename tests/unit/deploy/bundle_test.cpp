@@ -151,6 +151,16 @@ TEST_F(Bundle, A_file_that_changes_while_it_is_packed_leaves_no_bundle) {
   EXPECT_FALSE(fs::exists(file().string() + ".part"));
 }
 
+TEST_F(Bundle, Is_known_before_it_is_finished) {
+  ASSERT_EQ(write(), "");
+  EXPECT_TRUE(is_packed_plant(file()));
+  const std::string good = bytes_of_file(file());
+  std::ofstream(file(), std::ios::trunc) << good.substr(0, good.size() - 10);
+  EXPECT_TRUE(is_packed_plant(file()));
+  ASSERT_EQ(std::system(("cd " + folder_.string() + " && tar --zstd -cf cell.bundle source0").c_str()), 0);
+  EXPECT_FALSE(is_packed_plant(file()));
+}
+
 class SignedBundle : public Bundle {
  protected:
   SignedBundle() {

@@ -13,6 +13,7 @@
 #include "deploy/bundle/project.h"
 #include "tools/cli/command/config_file.h"
 #include "tools/client/config/checked_config.h"
+#include "tools/client/text/units.h"
 #include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
@@ -31,7 +32,13 @@ Result<std::map<std::string, std::filesystem::path>, base::Problem> archived(Con
                                                                              const std::filesystem::path& to) {
   for (const JsonValue& path : project.about["left_out"].values()) {
     context.out.note(fmt::format("{} holds a private key and does not travel with the sources",
-                                 (project.folder / path.text().value_or("")).string()));
+                                 printable((project.folder / path.text().value_or("")).string())));
+  }
+  for (const Project::Skipped& one : project.skipped) {
+    const bool is_link = one.reason == Project::Skipped::Link;
+    context.out.note(fmt::format("{} is {} and does not travel with the sources",
+                                 printable((project.folder / one.path).string()),
+                                 is_link ? "a symbolic link" : "a git repository of its own"));
   }
   const std::filesystem::path archive = to / "project.tar.zst";
   if (auto written = deploy::write_project(project.about, project.files, archive); !written) {
@@ -82,7 +89,10 @@ Result<PlantSource, Failure> read_plant_source(Context& context, const std::stri
   }
   PlantSource source;
   source.temporary = std::make_unique<TemporaryFolder>();
-  auto project = find_project(checked.plant);
+  if (source.temporary->path().empty()) {
+    return Failure{kFailed, kNoTemporaryFolder};
+  }
+  auto project = find_project(checked.plant, {also.begin(), also.end()});
   if (!project) {
     return Failure{kFailed, std::move(project).error().text};
   }

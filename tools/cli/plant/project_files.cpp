@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/plant/project_files.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 #include <utility>
 
-#include "core/base/descriptor.h"
 #include "core/base/file_problem.h"
+#include "core/base/inside_folder.h"
 #include "core/base/read_file.h"
-#include "core/base/text.h"
+#include "core/keys/private_key_in.h"
+#include "deploy/bundle/bundle.h"
 #include "deploy/transaction/package.h"
-#include "tools/client/process/child.h"
-#include "tools/client/process/temporary_folder.h"
+#include "tools/cli/plant/git_tree.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {
@@ -23,72 +22,30 @@ namespace {
 namespace fs = std::filesystem;
 using base::Problem;
 
-constexpr std::uint64_t kMaxBytes = std::uint64_t{64} << 20U;
+constexpr const char* kInEachFolderOfKeys = "governance.p7s";
 
-// Returns what a git command prints in `folder`; nothing if it fails, or if there is no git.
-std::optional<std::string> git(const fs::path& folder, std::vector<std::string> words) {
-  const TemporaryFolder temporary;
-  const fs::path out = temporary.path() / "out";
-  const base::Descriptor file(::open(out.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600));
-  words.insert(words.begin(), {"git", "-C", folder.string()});
-  const auto code = run_child(words, file.get());
-  if (!code || *code != 0) {
-    return std::nullopt;
-  }
-  const auto text = base::read_file(out);
-  return text ? std::optional(*text) : std::nullopt;
-}
-
-std::optional<std::string> git_line(const fs::path& folder, const std::vector<std::string>& words) {
-  const auto text = git(folder, words);
-  return text ? std::optional(std::string(base::trimmed(*text))) : std::nullopt;
-}
-
-// Paths that git tracks or would add; nothing outside of a work tree.
-std::optional<std::set<std::string>> files_of_git(const fs::path& folder) {
-  const auto text = git(folder, {"ls-files", "-z", "--cached", "--others", "--exclude-standard"});
-  if (!text) {
-    return std::nullopt;
-  }
-  std::set<std::string> paths;
-  for (std::size_t at = 0; at < text->size();) {
-    const std::size_t end = text->find('\0', at);
-    paths.insert(text->substr(at, end - at));
-    at = end + 1;
-  }
-  return paths;
-}
-
-std::set<std::string> files_below(const fs::path& folder) {
+Result<std::set<std::string>, Problem> files_below(const fs::path& folder) {
   std::set<std::string> paths;
   std::error_code error;
-  for (fs::recursive_directory_iterator at(folder, error), end; at != end && !error; at.increment(error)) {
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    std::error_code ignored;
     const std::string name = at->path().filename();
-    if (name.starts_with('.') || (at->is_directory() && name.starts_with("build"))) {
+    const bool is_folder = at->is_directory(ignored);
+    const bool holds_keys = is_folder && fs::exists(at->path() / kInEachFolderOfKeys, ignored);
+    if (name.starts_with('.') || (is_folder && name.starts_with("build")) || holds_keys) {
       at.disable_recursion_pending();
-    } else if (at->is_regular_file() && at->path().extension() != ".mcap") {
+    } else if ((at->is_regular_file(ignored) || at->is_symlink(ignored)) && at->path().extension() != ".mcap") {
       paths.insert(at->path().lexically_relative(folder));
     }
   }
+  if (error) {
+    return Problem{fmt::format("cannot list the sources in {}: {}", folder.string(), error.message())};
+  }
   return paths;
 }
 
-base::Json state_of_git(const fs::path& folder) {
-  const auto commit = git_line(folder, {"rev-parse", "HEAD"});
-  if (!commit) {
-    return {};
-  }
-  const auto branch = git_line(folder, {"rev-parse", "--abbrev-ref", "HEAD"});
-  const auto changed = git_line(folder, {"status", "--porcelain", "--", "."});
-  return {{"commit", *commit}, {"branch", branch.value_or("")}, {"changed", !changed.value_or("").empty()}};
-}
-
-bool holds_private_key(const std::string& text) {
-  return text.find("PRIVATE KEY-----") != std::string::npos;
-}
-
 // Returns the folder of the sources; empty if there are none.
-Result<fs::path, Problem> folder_of(const config::Plant& plant) {
+Result<fs::path, Problem> folder_of(const config::Plant& plant, const std::vector<fs::path>& also) {
   std::error_code error;
   const fs::path own = fs::absolute(plant.file, error).lexically_normal().parent_path();
   if (!plant.sources) {
@@ -101,13 +58,86 @@ Result<fs::path, Problem> folder_of(const config::Plant& plant) {
   if (!fs::is_directory(named, error)) {
     return Problem{fmt::format("{}: <sources> names {}, which is not a folder", plant.file.string(), named.string())};
   }
+  if (!base::lies_inside(named, own) &&
+      std::none_of(also.begin(), also.end(), [&](const fs::path& one) { return base::lies_inside(named, one); })) {
+    return Problem{fmt::format(
+        "{}: <sources> names {}, which would be sent to all boards and is not in the manifest's folder; if the plant "
+        "needs it, allow it: --also {}",
+        plant.file.string(), named.string(), named.string())};
+  }
   return named;
 }
 
+// What becomes of the files that may be sources.
+class Gathering {
+ public:
+  Gathering(Project& project, const config::Plant& plant, bool in_git) : project_(project), in_git_(in_git) {
+    std::error_code error;
+    if (!plant.security.empty()) {
+      keys_ = fs::absolute(plant.security, error).lexically_normal();
+    }
+    root_ = fs::canonical(project.folder, error);
+  }
+
+  Result<void, Problem> add(const std::string& path) {
+    const fs::path source = project_.folder / path;
+    std::error_code error;
+    const auto kind = fs::symlink_status(source, error).type();
+    if (kind == fs::file_type::symlink || kind == fs::file_type::directory) {
+      project_.skipped.push_back(
+          {path, kind == fs::file_type::symlink ? Project::Skipped::Link : Project::Skipped::Repository});
+      return {};
+    }
+    // A folder that was replaced by a link has other files than those that git knows.
+    const bool same_folder =
+        fs::canonical(source.parent_path(), error) == (root_ / path).lexically_normal().parent_path();
+    if (kind != fs::file_type::regular || !same_folder || is_key_of_plant(source) || deploy::is_packed_plant(source)) {
+      return {};
+    }
+    return add_file(path, source);
+  }
+  [[nodiscard]] const base::Json& left_out() const { return left_out_; }
+
+ private:
+  [[nodiscard]] bool is_key_of_plant(const fs::path& source) const {
+    return !keys_.empty() && source.string().starts_with(keys_.string() + "/");
+  }
+
+  Result<void, Problem> add_file(const std::string& path, const fs::path& source) {
+    const auto text = base::read_file(source, deploy::kMaxProjectBytes);
+    if (!text && text.error().kind != base::FileProblem::Kind::TooLarge) {
+      return Problem{base::cannot_read(source, text.error())};
+    }
+    if (text && keys::holds_private_key(*text)) {
+      left_out_.push_back(path);
+      return {};
+    }
+    if (text && !in_git_ && deploy::is_program(source)) {
+      return {};
+    }
+    bytes_ += text ? text->size() : deploy::kMaxProjectBytes + 1;
+    if (bytes_ > deploy::kMaxProjectBytes) {
+      return Problem{
+          fmt::format("the sources in {} are larger than {} with {}: leave out what is made by .gitignore, name "
+                      "another folder in the manifest, or write <sources>off</sources>",
+                      project_.folder.string(), human_bytes(deploy::kMaxProjectBytes), path)};
+    }
+    project_.files.push_back({path, source});
+    return {};
+  }
+
+  Project& project_;
+  bool in_git_;
+  fs::path root_;  // its folder, without links
+  fs::path keys_;
+  base::Json left_out_ = base::Json::array();
+  std::uint64_t bytes_ = 0;
+};
+
 }  // namespace
 
-Result<std::optional<Project>, Problem> find_project(const config::Plant& plant) {
-  auto folder = folder_of(plant);
+Result<std::optional<Project>, Problem> find_project(const config::Plant& plant, const std::vector<fs::path>& also) {
+  auto folder = folder_of(plant, also);
   if (!folder) {
     return std::move(folder).error();
   }
@@ -116,43 +146,26 @@ Result<std::optional<Project>, Problem> find_project(const config::Plant& plant)
   }
   Project project;
   project.folder = *folder;
-  const auto tracked = files_of_git(*folder);
-  const std::set<std::string> paths = tracked ? *tracked : files_below(*folder);
-  std::error_code error;
-  const fs::path keys = plant.security.empty() ? fs::path{} : fs::absolute(plant.security, error).lexically_normal();
-  base::Json left_out = base::Json::array();
-  std::uint64_t bytes = 0;
-  for (const std::string& path : paths) {
-    const fs::path source = *folder / path;
-    if (!fs::is_regular_file(fs::symlink_status(source, error)) ||
-        (!keys.empty() && source.string().starts_with(keys.string() + "/"))) {
-      continue;
-    }
-    const auto text = base::read_file(source, kMaxBytes);
-    if (!text && text.error().kind != base::FileProblem::Kind::TooLarge) {
-      return Problem{base::cannot_read(source, text.error())};
-    }
-    if (text && holds_private_key(*text)) {
-      left_out.push_back(path);
-      continue;
-    }
-    if (text && !tracked && deploy::is_program(source)) {
-      continue;
-    }
-    bytes += text ? text->size() : kMaxBytes + 1;
-    if (bytes > kMaxBytes) {
-      return Problem{
-          fmt::format("the sources in {} are larger than {} with {}: leave out what is made by .gitignore, name "
-                      "another folder in the manifest, or write <sources>off</sources>",
-                      folder->string(), human_bytes(kMaxBytes), path)};
-    }
-    project.files.push_back({path, source});
+  const auto tree = read_git_tree(*folder);
+  if (!tree) {
+    return tree.error();
   }
+  const auto paths = tree->has_value() ? Result<std::set<std::string>, Problem>((*tree)->paths) : files_below(*folder);
+  if (!paths) {
+    return paths.error();
+  }
+  Gathering gathering(project, plant, tree->has_value());
+  for (const std::string& path : *paths) {
+    if (auto added = gathering.add(path); !added) {
+      return std::move(added).error();
+    }
+  }
+  std::error_code error;
   const fs::path manifest = fs::absolute(plant.file, error).lexically_normal();
   project.about = {{"indurop", INDUROP_VERSION},
                    {"manifest", manifest.lexically_relative(*folder).string()},
-                   {"git", state_of_git(*folder)},
-                   {"left_out", left_out}};
+                   {"git", tree->has_value() ? (*tree)->state : base::Json()},
+                   {"left_out", gathering.left_out()}};
   return std::optional(std::move(project));
 }
 

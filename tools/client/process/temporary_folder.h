@@ -10,13 +10,17 @@
 
 namespace indurop::tools {
 
+// What to tell the user if it could not be created.
+inline constexpr const char* kNoTemporaryFolder = "cannot create a temporary folder; is TMPDIR a folder with room?";
+
 // Removes the folder with its contents in the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::error_code error;
-    std::string name = (std::filesystem::temp_directory_path(error) / "indurop-XXXXXX").string();
-    path_ = ::mkdtemp(name.data()) == nullptr ? "" : name;
+    const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+    std::string name = (parent / "indurop-XXXXXX").string();
+    path_ = error || ::mkdtemp(name.data()) == nullptr ? "" : name;
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;

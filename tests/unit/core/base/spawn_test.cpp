@@ -87,6 +87,14 @@ TEST_P(Spawn, Passes_arguments_and_both_outputs) {
   EXPECT_EQ(said(launch(), "echo a; echo 'b  c' >&2"), "a\nb  c\n");
 }
 
+TEST_P(Spawn, Separates_the_outputs_if_asked) {
+  Pipe errors;
+  Launch sut = launch();
+  sut.errors = errors.write.get();
+  EXPECT_EQ(said(sut, "echo a; echo b >&2"), "a\n");
+  EXPECT_EQ(errors.rest(), "b\n");
+}
+
 TEST_P(Spawn, Uses_the_environment_that_is_given) {
   Launch sut = launch();
   sut.environment = {"ONLY=this"};
