@@ -91,6 +91,24 @@ TEST_F(Deploying, A_bundle_is_deployed_where_its_sources_are_not) {
   EXPECT_TRUE(runs("a", id) && runs("b", id));
 }
 
+TEST_F(Deploying, Without_a_temporary_folder_the_files_here_stay_as_they_are) {
+  start_both();
+  const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
+  std::ofstream(folder() / "CMakeLists.txt") << "project(x)\n";
+  deployed(file);
+  std::ofstream(folder() / "CMakeLists.txt") << "project(changed)\n";
+  const Outcome none = start({"/bin/sh", "-c", "cd " + path("") + " && exec \"$@\"", "sh", INDUROP_PROGRAM, "diff",
+                              file, "--one-host", "--domain", std::to_string(link_domain())},
+                             {.variables = {"TMPDIR=/nonexistent"}})
+                           .finish();
+  EXPECT_EQ(none.code, 1);
+  EXPECT_THAT(none.err, HasSubstr("is TMPDIR a folder with room?"));
+  std::string text;
+  std::getline(std::ifstream(folder() / "CMakeLists.txt"), text);
+  EXPECT_EQ(text, "project(changed)");
+  EXPECT_FALSE(std::filesystem::exists(folder() / "sources"));
+}
+
 TEST_F(Deploying, A_bundle_that_is_older_than_what_runs_is_refused_without_older) {
   start_both();
   const auto packed = [&](const char* name, const char* module) {

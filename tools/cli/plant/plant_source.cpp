@@ -51,7 +51,7 @@ Result<PlantSource, Failure> read_bundle(Context& context, const std::string& fi
   PlantSource source;
   source.temporary = std::make_unique<TemporaryFolder>();
   if (source.temporary->path().empty()) {
-    return Failure{kFailed, "cannot create a temporary folder; is TMPDIR a folder with room?"};
+    return Failure{kFailed, kNoTemporaryFolder};
   }
   auto opened = deploy::open_bundle(file, source.temporary->path());
   if (!opened) {

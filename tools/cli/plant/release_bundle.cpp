@@ -50,7 +50,7 @@ Result<void, base::Problem> write_release(Context& context, const deploy::Packed
 Result<ReleaseBundle, Failure> read_release(const std::string& file, const std::filesystem::path& keys) {
   ReleaseBundle bundle{{}, std::make_unique<TemporaryFolder>()};
   if (bundle.temporary->path().empty()) {
-    return Failure{kFailed, "cannot create a temporary folder; is TMPDIR a folder with room?"};
+    return Failure{kFailed, kNoTemporaryFolder};
   }
   auto opened = deploy::open_bundle(file, bundle.temporary->path());
   if (!opened) {

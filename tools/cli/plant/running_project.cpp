@@ -57,6 +57,9 @@ Result<deploy::OpenedProject, Failure> fetch_project(DiscoveredBoards& boards, s
                                         running.plant)};
   }
   const TemporaryFolder temporary;
+  if (temporary.path().empty()) {
+    return Failure{kFailed, kNoTemporaryFolder};
+  }
   const std::filesystem::path archive = temporary.path() / "sources";
   const BoardFile wanted{printable(running.source.board), running.source.agent, found->digest, found->size};
   if (auto fetched = fetch_file(*boards.link, self, wanted, archive); !fetched) {

@@ -79,6 +79,9 @@ Result<std::size_t, Failure> compare_sources(DiscoveredBoards& boards, std::uint
     return std::size_t{0};
   }
   const TemporaryFolder folder;
+  if (folder.path().empty()) {
+    return Failure{kFailed, kNoTemporaryFolder};
+  }
   const auto fetched = fetch_project(boards, self, running, folder.path());
   if (!fetched) {
     return fetched.error();

@@ -53,7 +53,7 @@ int package(Context& context, const PackageOptions& options) {
   }
   const TemporaryFolder temporary;
   if (temporary.path().empty()) {
-    context.out.error("cannot create a temporary folder; is TMPDIR a folder with room?");
+    context.out.error(kNoTemporaryFolder);
     return kFailed;
   }
   const PlantPackage about{source->plant.name, source->packed.id, source->packed.package.comment, options.version,
