@@ -32,6 +32,9 @@ Result<BundleSignature, base::Problem> sign_package(const std::string& package_t
 std::string bundle_refusal(const BundleSignature& signature, const std::string& package_text,
                            const std::string& authority, const std::string& revoked);
 
+// Returns why `file` must not be written: it is a file of the package, or no file at all; empty if it may.
+std::string output_refusal(const PackedPlant& packed, const std::filesystem::path& file);
+
 // Writes the file under another name first, so `file` is either complete or as it was before. Errors: a file of the
 // package cannot be read or has changed since it was packed; the bundle cannot be written.
 Result<void, base::Problem> write_bundle(const PackedPlant& packed, const BundleSignature& signature,

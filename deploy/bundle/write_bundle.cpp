@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -83,8 +84,26 @@ Result<void, Problem> write_members(archives::ArchiveWriter& bundle, const Packe
 
 }  // namespace
 
+std::string output_refusal(const PackedPlant& packed, const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) {
+    return {};
+  }
+  if (!std::filesystem::is_regular_file(file, error)) {
+    return fmt::format("cannot write {}: it is not a regular file", file.string());
+  }
+  const bool ours = std::any_of(packed.sources.begin(), packed.sources.end(), [&](const auto& source) {
+    return std::filesystem::equivalent(source.second, file, error);
+  });
+  return ours ? fmt::format("{} is a file of the plant and would be lost; name another file with -o", file.string())
+              : std::string();
+}
+
 Result<void, Problem> write_bundle(const PackedPlant& packed, const BundleSignature& signature,
                                    const std::filesystem::path& file) {
+  if (std::string refusal = output_refusal(packed, file); !refusal.empty()) {
+    return Problem{std::move(refusal)};
+  }
   const std::filesystem::path unfinished = file.string() + ".part";
   archives::ArchiveWriter bundle;
   Result<void, Problem> result = Problem{};

@@ -151,6 +151,15 @@ TEST_F(Bundle, A_file_that_changes_while_it_is_packed_leaves_no_bundle) {
   EXPECT_FALSE(fs::exists(file().string() + ".part"));
 }
 
+TEST_F(Bundle, Does_not_replace_what_it_was_packed_from) {
+  const fs::path source = packed_.sources.begin()->second;
+  const std::string before = bytes_of_file(source);
+  EXPECT_THAT(write_bundle(packed_, {}, source).error().text, HasSubstr("is a file of the plant and would be lost"));
+  EXPECT_EQ(bytes_of_file(source), before);
+  EXPECT_THAT(write_bundle(packed_, {}, folder_).error().text, HasSubstr("it is not a regular file"));
+  EXPECT_THAT(write_bundle(packed_, {}, "/dev/null").error().text, HasSubstr("it is not a regular file"));
+}
+
 TEST_F(Bundle, Is_known_before_it_is_finished) {
   ASSERT_EQ(write(), "");
   EXPECT_TRUE(is_packed_plant(file()));

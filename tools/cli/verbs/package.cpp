@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "deploy/bundle/bundle.h"
 #include "deploy/words/deployment_words.h"
 #include "tools/cli/plant/plant_package.h"
 #include "tools/cli/plant/plant_source.h"
@@ -61,6 +62,14 @@ int package(Context& context, const PackageOptions& options) {
   const std::filesystem::path tree = temporary.path() / "tree";
   const std::filesystem::path file =
       options.out.empty() ? fmt::format("{}_{}_all.deb", package_name(about.plant), about.version) : options.out;
+  std::error_code error;
+  std::string refusal = std::filesystem::equivalent(file, options.file, error)
+                            ? fmt::format("{} would be lost; name another file with -o", file.string())
+                            : deploy::output_refusal(source->packed, file);
+  if (!refusal.empty()) {
+    context.out.error(refusal);
+    return kFailed;
+  }
   auto done = place_bundle(context, *source, options, tree / installed_bundle(about.plant));
   if (done) {
     done = write_plant_package(about, tree, file);
