@@ -107,6 +107,10 @@ Result<void, Problem> BoardDeployment::check(const Order& order) {
   if (read.plant.name != order.plant) {
     return Problem{fmt::format("plant {} was offered, and {} is in the package", order.plant, read.plant.name)};
   }
+  if (const auto package = state_.package(order.deployment); package && !is_package_of(*package, read.plant)) {
+    return Problem{fmt::format("the package names another plant, or other boards, than the manifest of {} in it",
+                               read.plant.name)};
+  }
   config::CheckOptions how;
   how.board = one_host_ ? std::string{} : board_;
   const config::PlantCheck checked = config::check_plant(read.plant, how);

@@ -163,6 +163,12 @@ std::string problem_of(const Package& package) {
 
 }  // namespace
 
+bool is_package_of(const Package& package, const config::Plant& plant) {
+  return package.plant == plant.name &&
+         std::equal(package.boards.begin(), package.boards.end(), plant.boards.begin(), plant.boards.end(),
+                    [](const std::string& name, const config::Board& board) { return name == board.name; });
+}
+
 bool is_package_path(const std::string& text) {
   const std::filesystem::path path(text);
   if (text.empty() || text.size() > kLongestPath || path.is_absolute() || path.lexically_normal().string() != text ||

@@ -40,6 +40,9 @@ std::string to_text(const Package& package);
 // Checks everything in the text, regardless of the sender; returns a problem if it is not a valid package.
 Result<Package, base::Problem> read_package(std::string_view text);
 
+// Returns true if the package names the plant and exactly the boards of this plant, which its manifest describes.
+bool is_package_of(const Package& package, const config::Plant& plant);
+
 // Returns true for a path that a package may contain: relative, normal, without "..".
 bool is_package_path(const std::string& path);
 

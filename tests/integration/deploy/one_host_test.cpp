@@ -91,6 +91,27 @@ TEST_F(Deploying, A_bundle_is_deployed_where_its_sources_are_not) {
   EXPECT_TRUE(runs("a", id) && runs("b", id));
 }
 
+// Its list of files is changed by another program, as only one who packs it can do.
+TEST_F(Deploying, A_bundle_that_leaves_out_a_board_of_its_manifest_is_refused) {
+  start_both();
+  const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
+  const std::string id = deployed(file);
+  ASSERT_EQ(indurop_here({"pack", file, "-o", path("p.bundle")}).code, 0);
+  std::ofstream(folder() / "repack.sh") << R"(set -e
+mkdir m
+tar --zstd -xf p.bundle -C m
+cd m
+sed -i "s/,\"$1\"]/]/" package.json
+sed -i "s/\"deployment\":\"[0-9a-f]*/\"deployment\":\"$(sha256sum < package.json | cut -c1-64)/" signature.json
+tar --zstd -cf ../p.bundle package.json signature.json files/*
+)";
+  ASSERT_EQ(std::system(("cd " + path("") + " && sh repack.sh " + board("b")).c_str()), 0);
+  const Outcome refused = deploy(path("p.bundle"));
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("names another plant, or other boards, than the manifest in it"));
+  EXPECT_TRUE(runs("a", id) && runs("b", id));
+}
+
 TEST_F(Deploying, Without_a_temporary_folder_the_files_here_stay_as_they_are) {
   start_both();
   const std::string file = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});

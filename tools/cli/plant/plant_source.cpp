@@ -64,6 +64,11 @@ Result<PlantSource, Failure> read_bundle(Context& context, const std::string& fi
   if (!print_check(context, checked)) {
     return Failure{kCheckFailed, {}};
   }
+  if (!deploy::is_package_of(opened->packed.package, checked.plant)) {
+    return Failure{kFailed, fmt::format("{}: the bundle names another plant, or other boards, than the manifest in it; "
+                                        "pack it again",
+                                        file)};
+  }
   source.plant = std::move(checked.plant);
   source.packed = std::move(opened->packed);
   source.signature = std::move(opened->signature);
