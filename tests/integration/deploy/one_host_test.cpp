@@ -110,6 +110,7 @@ tar --zstd -cf ../p.bundle package.json signature.json files/*
   EXPECT_EQ(refused.code, 1);
   EXPECT_THAT(refused.err, HasSubstr("names another plant, or other boards, than the manifest in it"));
   EXPECT_TRUE(runs("a", id) && runs("b", id));
+  EXPECT_EQ(deploy(path("p.bundle"), {"-m", "text"}).code, 2) << "a bundle has its comment";
 }
 
 TEST_F(Deploying, Without_a_temporary_folder_the_files_here_stay_as_they_are) {

@@ -83,6 +83,11 @@ Result<PlantSource, Failure> read_plant_source(Context& context, const std::stri
     return found.error();
   }
   if (deploy::is_bundle(file)) {
+    if (!comment.empty()) {
+      return Failure{kUsage, fmt::format("{} is a bundle, whose comment is that of its indurop pack; --comment is for "
+                                         "a manifest",
+                                         file)};
+    }
     return read_bundle(context, file);
   }
   if (!config::is_plant_file(file)) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/base/inside_folder.h"
 #include "core/rt/clock.h"
 #include "deploy/link/link_keys.h"
 #include "deploy/transaction/package.h"
@@ -122,9 +123,16 @@ void print_size(Context& context, const Deployment& deployment, const deploy::Pa
 }
 
 // Reads the key from --keys, else from the folder that the manifest names.
-Result<std::string, base::Problem> deploy_key(Context& context, const config::Plant& plant,
+Result<std::string, base::Problem> deploy_key(Context& context, const PlantSource& source, const std::string& file,
                                               deploy::LinkSettings& link) {
+  const config::Plant& plant = source.plant;
   if (link.keys.empty() && !plant.security.empty()) {
+    if (source.signature && base::lies_inside(plant.security, source.temporary->path())) {
+      return base::Problem{
+          fmt::format("{}: the plant has keys, which a bundle does not contain; name the folder of "
+                      "your keys: --keys DIR",
+                      file)};
+    }
     link.keys = plant.security;
     if (auto used = deploy::use_keys(link); !used) {
       return std::move(used).error();
@@ -146,7 +154,7 @@ int deploy_plant(Context& context, DeployOptions& options) {
   const deploy::PackedPlant* const packed = &source.packed;
   options.link.network.multicast = source.plant.multicast;
   options.link.network.peers = addresses(source.plant);
-  auto key = deploy_key(context, source.plant, options.link);
+  auto key = deploy_key(context, source, options.file, options.link);
   if (!key) {
     context.out.error(key.error().text);
     return kFailed;

@@ -52,6 +52,11 @@ int package(Context& context, const PackageOptions& options) {
   if (!source) {
     return report(context.out, not_done(source.error(), "packed"));
   }
+  if (source->signature && !options.keys.empty()) {
+    context.out.error(fmt::format(
+        "{} is a bundle, which was signed or not when it was packed; --keys is for a manifest", options.file));
+    return kUsage;
+  }
   const TemporaryFolder temporary;
   if (temporary.path().empty()) {
     context.out.error(kNoTemporaryFolder);
