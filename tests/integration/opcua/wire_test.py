@@ -9,6 +9,10 @@ import subprocess
 
 from opcua_harness import enter_namespace, main, skip, wait_for
 
+# tshark 4.4 reads the certificates, too. Those of the library have a comment in UTF-8, which once had to be in ASCII.
+COMMENT = "BER Error: String with tag=22 expected but class:UNIVERSAL(0) Primitive tag:12 was unexpected"
+
+
 def test_every_message_is_well_formed(setting):
     setting.start_real_node()
     server = setting.start_server()
@@ -32,7 +36,8 @@ def test_every_message_is_well_formed(setting):
                            "-e", "_ws.expert.message"], capture_output=True, text=True, check=True)
     packets = [one["_source"]["layers"] for one in json.loads(read.stdout)]
     assert len(packets) > 30, len(packets)
-    assert not [one for one in packets if "_ws.malformed" in one], "tshark calls none malformed"
+    malformed = [one["_ws.expert.message"] for one in packets if "_ws.malformed" in one]
+    assert all(set(texts) <= {COMMENT} for texts in malformed), malformed
     types = {kind for one in packets for kind in one.get("opcua.transport.type", [])}
     assert {"HEL", "ACK", "OPN", "MSG"} <= types, types
     services = {int(kind) for one in packets for kind in one.get("opcua.servicenodeid.numeric", [])}
