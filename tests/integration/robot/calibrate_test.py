@@ -132,7 +132,7 @@ class Cell:
         self.start(self.options.bin / "indurop", "run", "module.xml", "--sim", "--speed", "1", "--node", self.node, "-q")
         self.wait(lambda: subprocess.run([self.options.bin / "indurop", "get", "PLC_ROBOT::I14", "--node", self.node],
                                          env=self.environment, capture_output=True, check=False).returncode == 0, "the node")
-        # A request that is there before the first run is one of before a restart: it is aborted.
+        # A request that is there at the first run may be older than a restart of the robot: it is aborted.
         self.wait(lambda: self.get("PLC_ROBOT::ROBOT_MODULE_STATE.nAXESGROUP") == "6", "the first run of the robot")
         self.set("PLC_ROBOT::I14", "1")
         self.set("PLC_ROBOT::I15", "1")
