@@ -74,8 +74,9 @@ void NodeTest::TearDown() {
     }
   }
   seen_.clear();
-  for (const std::string& node : vars::list_nodes()) {
-    if (node == name_ || node.starts_with(name_ + "-")) {  // also those that a test has started besides
+  (void)vars::remove_node(name_);
+  for (const std::string& node : vars::list_nodes(vars::Nodes::All)) {
+    if (node.starts_with(name_ + "-")) {  // a test has started it besides
       (void)vars::remove_node(node);
     }
   }

@@ -158,9 +158,11 @@ void NodeProcess::end() noexcept {
 }
 
 std::vector<std::string> NodeProcess::nodes() const {
+  if (!plant_) {
+    return {node_};
+  }
   std::vector<std::string> all = vars::list_nodes();
-  std::erase_if(all,
-                [this](const std::string& node) { return plant_ ? !node.starts_with(node_ + "-") : node != node_; });
+  std::erase_if(all, [this](const std::string& node) { return !node.starts_with(node_ + "-"); });
   return all;
 }
 

@@ -60,7 +60,7 @@ class NodeProcess {
  private:
   void wait_until_it_stands();
   void find_boards();
-  [[nodiscard]] std::vector<std::string> nodes() const;  // those that have memory
+  [[nodiscard]] std::vector<std::string> nodes() const;  // their names; of a plant those that have memory
   void check_returned();
   [[nodiscard]] bool stands() const;
   bool has_ended();

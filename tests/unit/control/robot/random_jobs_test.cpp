@@ -133,7 +133,7 @@ class Random_jobs : public testing::Test {
 
 TEST_F(Random_jobs, Break_no_limit_whatever_happens) {
   const int first = number_of("INDUROP_ROBOT_SEED", 1);
-  const int jobs = number_of("INDUROP_ROBOT_JOBS", 600);
+  const int jobs = number_of("INDUROP_ROBOT_JOBS", 300);
   for (int i = 0; i < jobs; ++i) {
     run(static_cast<unsigned>(first + i));
     if (HasFatalFailure()) {
