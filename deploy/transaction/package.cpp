@@ -169,13 +169,13 @@ bool is_package_of(const Package& package, const config::Plant& plant) {
                     [](const std::string& name, const config::Board& board) { return name == board.name; });
 }
 
-bool is_package_path(const std::string& text) {
-  const std::filesystem::path path(text);
-  if (text.empty() || text.size() > kLongestPath || path.is_absolute() || path.lexically_normal().string() != text ||
-      text.back() == '/' || text.find('\0') != std::string::npos) {
+bool is_package_path(const std::string& path) {
+  const std::filesystem::path parts(path);
+  if (path.empty() || path.size() > kLongestPath || parts.is_absolute() || parts.lexically_normal().string() != path ||
+      path.back() == '/' || path.find('\0') != std::string::npos) {
     return false;
   }
-  return std::none_of(path.begin(), path.end(), [](const auto& part) { return part == ".." || part == "."; });
+  return std::none_of(parts.begin(), parts.end(), [](const auto& part) { return part == ".." || part == "."; });
 }
 
 bool is_program(const std::filesystem::path& file) {

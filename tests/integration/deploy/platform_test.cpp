@@ -10,7 +10,6 @@
 namespace indurop::test {
 namespace {
 
-using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -193,7 +192,7 @@ TEST_F(Platform, A_release_whose_copies_are_damaged_is_restored) {
     std::filesystem::resize_file(entry, std::filesystem::file_size(entry) / 2);
   }
   start_agent("a");
-  EXPECT_TRUE(wait_until([&] { return platform()[board("a")].value("message", "") != ""; })) << agent("a").err();
+  EXPECT_TRUE(wait_until([&] { return !platform()[board("a")].value("message", "").empty(); })) << agent("a").err();
   EXPECT_THAT(agent("a").err(), HasSubstr("cannot be run"));
 }
 

@@ -4,10 +4,10 @@
 #include "deploy/agent/board_audit.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/resource.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 
 #include "store/operate/audit.h"

@@ -42,7 +42,8 @@ class ProjectArchive : public testing::Test {
 TEST_F(ProjectArchive, Is_unpacked_as_it_was_packed) {
   const files::path script = make("s", "#!/bin/sh\n");
   files::permissions(script, files::perms::owner_exec, files::perm_options::add);
-  const std::vector<ProjectFile> sources{{"a/b/run.sh", script}, {"empty", make("e", "")}, {"z", make("z", "\0x")}};
+  const std::vector<ProjectFile> sources{
+      {"a/b/run.sh", script}, {"empty", make("e", "")}, {"z", make("z", std::string("\0x", 2))}};
   ASSERT_TRUE(write_project({{"manifest", "z"}}, sources, folder_ / "p"));
   ASSERT_TRUE(write_project({{"manifest", "z"}}, sources, folder_ / "q"));
   EXPECT_EQ(content_of(folder_ / "p"), content_of(folder_ / "q"));

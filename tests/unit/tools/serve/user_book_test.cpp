@@ -5,10 +5,10 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 
 #include <array>
+#include <cstdlib>
 #include <fstream>
 
 #include "config/users_reader.h"
@@ -36,8 +36,8 @@ class UserBookTest : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   static const std::string& hash() {
-    static const std::string once = keys::hash_of_password("correct horse");
-    return once;
+    static const std::string kHash = keys::hash_of_password("correct horse");
+    return kHash;
   }
   [[nodiscard]] fs::path file() const { return folder_ / "users.xml"; }
   // As indurop users does it: another file takes its place.
