@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 
@@ -119,6 +120,17 @@ void keep_ends_of_children() noexcept {
   if (is_ignored(SIGCHLD)) {
     (void)::signal(SIGCHLD, SIG_DFL);
   }
+}
+
+std::vector<std::string> environment_without(std::initializer_list<std::string_view> names) {
+  std::vector<std::string> kept;
+  for (char** one = environ; *one != nullptr; ++one) {
+    const std::string_view entry(*one);
+    if (std::find(names.begin(), names.end(), entry.substr(0, entry.find('='))) == names.end()) {
+      kept.emplace_back(entry);
+    }
+  }
+  return kept;
 }
 
 Result<pid_t> spawn(const Launch& launch) {

@@ -8,8 +8,10 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace indurop::base {
@@ -31,6 +33,9 @@ struct Launch {
   // processes.
   int ends_with_us = 0;
 };
+
+// Returns our environment without these variables, for Launch::environment.
+std::vector<std::string> environment_without(std::initializer_list<std::string_view> names);
 
 // A program started by one that ignores SIGCHLD ignores it, too, and the system then drops how its children end: ends
 // this, so that waitpid() works. spawn() does it; call it before fork().

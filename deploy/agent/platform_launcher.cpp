@@ -30,8 +30,8 @@ constexpr std::uint64_t kTrialStarts = 3;
 constexpr std::uint64_t kCommittedStarts = 10;     // each of which ended before PlatformUpdate::kAliveAfter
 constexpr std::chrono::seconds kTrialReserve{90};  // for a trial, in addition to the health window
 
-std::string value_of(std::string_view variable) {
-  const char* value = std::getenv(std::string(variable.substr(0, variable.size() - 1)).c_str());
+std::string value_of(const char* variable) {
+  const char* value = std::getenv(variable);
   return value == nullptr ? "" : value;
 }
 
@@ -151,7 +151,8 @@ class Launcher {
     const std::string problem =
         become(release->agent, self_.arguments,
                release_environment(state_.folder(), release->libraries,
-                                   {kReleaseVariable + id, kLauncherVariable + self_.launcher.string()}));
+                                   {fmt::format("{}={}", kReleaseVariable, id),
+                                    fmt::format("{}={}", kLauncherVariable, self_.launcher.string())}));
     ::alarm(0);
     return problem;
   }

@@ -13,8 +13,8 @@
 namespace indurop::deploy {
 
 // Variables of the environment between the installed program and the release that it becomes.
-inline constexpr const char* kReleaseVariable = "INDUROP_RELEASE=";
-inline constexpr const char* kLauncherVariable = "INDUROP_LAUNCHER=";
+inline constexpr const char* kReleaseVariable = "INDUROP_RELEASE";
+inline constexpr const char* kLauncherVariable = "INDUROP_LAUNCHER";
 
 struct RunningRelease {
   std::string id;                  // kInstalledRelease, or that of the deployed release that this process is

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
 #include <string_view>
@@ -29,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using base::Problem;
 
-constexpr std::string_view kLibraryPath = "LD_LIBRARY_PATH=";
+constexpr const char* kLibraryPath = "LD_LIBRARY_PATH";
 constexpr std::chrono::seconds kVersionPatience{10};
 constexpr std::chrono::milliseconds kVersionPoll{10};
 
@@ -125,29 +126,24 @@ std::string release_folder_in(const fs::path& program) {
 
 std::vector<std::string> release_environment(const fs::path& platform, const fs::path& libraries,
                                              const std::vector<std::string>& further) {
-  std::vector<std::string> out = further;
-  std::vector<std::string> folders;
-  for (char** variable = environ; *variable != nullptr; ++variable) {
-    const std::string_view text = *variable;
-    if (text.starts_with(kLibraryPath)) {
-      folders = without_releases(text.substr(kLibraryPath.size()), platform.string());
-    } else if (!text.starts_with(kReleaseVariable) && !text.starts_with(kLauncherVariable)) {
-      out.emplace_back(text);
-    }
-  }
+  std::vector<std::string> out = base::environment_without({kLibraryPath, kReleaseVariable, kLauncherVariable});
+  out.insert(out.end(), further.begin(), further.end());
+  const char* const inherited = std::getenv(kLibraryPath);
+  std::vector<std::string> folders = without_releases(inherited == nullptr ? "" : inherited, platform.string());
   if (!libraries.empty()) {
     folders.insert(folders.begin(), libraries.string());
   }
   if (!folders.empty()) {
-    out.push_back(fmt::format("{}{}", kLibraryPath, fmt::join(folders, ":")));
+    out.push_back(fmt::format("{}={}", kLibraryPath, fmt::join(folders, ":")));
   }
   return out;
 }
 
 Result<void, Problem> try_release(const DeploymentFiles& files, const ReleasePrograms& release) {
   const fs::path node = release.agent.parent_path() / "indurop-node";
+  const std::vector<std::string> environment = release_environment(files.folder(), release.libraries, {});
   for (const fs::path& program : {release.agent, node}) {
-    const std::string what = what_prevents(program, release_environment(files.folder(), release.libraries, {}));
+    const std::string what = what_prevents(program, environment);
     if (!what.empty()) {
       return Problem{fmt::format("release {} cannot run on this board: {}", release.version, what)};
     }

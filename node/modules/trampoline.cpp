@@ -23,13 +23,7 @@ namespace indurop::node {
 namespace {
 
 std::vector<std::string> environment_for(const Launch& what) {
-  std::vector<std::string> result;
-  for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string_view text(*entry);
-    if (!text.starts_with("INDUROP_NODE=") && !text.starts_with("INDUROP_MODULE=")) {
-      result.emplace_back(text);
-    }
-  }
+  std::vector<std::string> result = base::environment_without({"INDUROP_NODE", "INDUROP_MODULE"});
   result.push_back("INDUROP_NODE=" + what.node);
   result.push_back("INDUROP_MODULE=" + what.module);
   return result;

@@ -32,35 +32,11 @@ namespace {
 constexpr const char* kProgram = "indurop-node";
 constexpr std::chrono::microseconds kLook{20};
 constexpr std::chrono::seconds kEnd{5};
-constexpr std::string_view kStateVariable = "INDUROP_STATE_DIR=";
+constexpr const char* kStateVariable = "INDUROP_STATE_DIR";
 
-// Returns empty if the user has chosen a folder.
-std::filesystem::path make_state_folder() {
-  for (char** variable = environ; *variable != nullptr; ++variable) {
-    const std::string_view text = *variable;
-    if (text.starts_with(kStateVariable) && text != kStateVariable) {
-      return {};
-    }
-  }
-  std::string name = (std::filesystem::temp_directory_path() / "indurop-test-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) {
-    throw std::runtime_error(fmt::format("cannot make {}, the folder for the state of a node", name));
-  }
-  return name;
-}
-
-std::optional<std::vector<std::string>> environment_with_state(const std::filesystem::path& folder) {
-  if (folder.empty()) {
-    return std::nullopt;
-  }
-  std::vector<std::string> all;
-  for (char** variable = environ; *variable != nullptr; ++variable) {
-    if (!std::string_view(*variable).starts_with(kStateVariable)) {
-      all.emplace_back(*variable);
-    }
-  }
-  all.push_back(std::string(kStateVariable) + folder.string());
-  return all;
+bool user_chose_state_folder() {
+  const char* const chosen = std::getenv(kStateVariable);
+  return chosen != nullptr && *chosen != '\0';
 }
 
 }  // namespace
@@ -94,11 +70,11 @@ void remove_orphans(std::string_view prefix) {
 
 NodeProcess::NodeProcess(const std::string& node, bool plant, const std::vector<std::string>& arguments,
                          std::chrono::seconds patience, const std::filesystem::path& program)
-    : node_(node),
-      patience_(patience),
-      output_(::memfd_create("output of a node", MFD_CLOEXEC)),
-      plant_(plant),
-      state_(make_state_folder()) {
+    : node_(node), patience_(patience), output_(::memfd_create("output of a node", MFD_CLOEXEC)), plant_(plant) {
+  if (!user_chose_state_folder() && state_.emplace().path().empty()) {
+    end();
+    throw std::runtime_error(base::kNoTemporaryFolder);
+  }
   std::array<int, 2> ends{-1, -1};
   // A socket: a write to a node that has ended raises no signal in this process.
   if (output_ < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
@@ -110,7 +86,10 @@ NodeProcess::NodeProcess(const std::string& node, bool plant, const std::vector<
   launch.words = {kProgram, "--sim", "--step", "--node", node};
   launch.words.insert(launch.words.end(), arguments.begin(), arguments.end());
   launch.program = program;
-  launch.environment = environment_with_state(state_);
+  if (state_) {
+    launch.environment = base::environment_without({kStateVariable});
+    launch.environment->push_back(fmt::format("{}={}", kStateVariable, state_->path().string()));
+  }
   launch.input = ends[0];
   launch.output = output_;
   launch.fresh_signals = true;
@@ -150,10 +129,6 @@ void NodeProcess::end() noexcept {
   }
   for (const std::string& node : nodes()) {
     (void)vars::remove_node(node);
-  }
-  if (!state_.empty()) {
-    std::error_code ignored;
-    std::filesystem::remove_all(state_, ignored);
   }
 }
 

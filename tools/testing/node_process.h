@@ -10,10 +10,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/base/temporary_folder.h"
 #include "scheduler/run_block.h"
 #include "store/vars/run_file.h"
 
@@ -72,8 +74,8 @@ class NodeProcess {
   int output_ = -1;
   pid_t pid_ = -1;
   bool plant_;
-  std::filesystem::path state_;  // empty: the user's
-  std::vector<Board> boards_;    // none before all of them have stopped at the first tick
+  std::optional<base::TemporaryFolder> state_;  // none: the user's
+  std::vector<Board> boards_;                   // none before all of them have stopped at the first tick
   std::uint64_t ticks_ = 0;
 };
 

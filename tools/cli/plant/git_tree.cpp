@@ -3,13 +3,10 @@
 
 #include <fmt/format.h>
 #include <sys/mman.h>
-#include <sys/wait.h>
-#include <unistd.h>  // environ
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -18,6 +15,7 @@
 #include "core/base/spawn.h"
 #include "core/base/text.h"
 #include "deploy/bundle/bundle.h"
+#include "tools/client/process/child.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {
@@ -36,41 +34,24 @@ std::string content_of(const base::Descriptor& file) {
   return text;
 }
 
-// A hook of git that runs us names its own repository in the environment, which need not be that of the folder.
-std::vector<std::string> environment_without_repository() {
-  std::vector<std::string> kept;
-  for (char** one = environ; *one != nullptr; ++one) {
-    const std::string_view entry(*one);
-    const std::string_view name = entry.substr(0, entry.find('='));
-    if (name != "GIT_DIR" && name != "GIT_WORK_TREE" && name != "GIT_INDEX_FILE" && name != "GIT_PREFIX" &&
-        name != "GIT_COMMON_DIR" && name != "GIT_OBJECT_DIRECTORY") {
-      kept.emplace_back(entry);
-    }
-  }
-  return kept;
-}
-
 // Returns what a git command prints about `folder`; else why it failed, in git's words.
 Result<std::string, Problem> git(const fs::path& folder, const std::vector<std::string>& words) {
   const base::Descriptor output(::memfd_create("indurop-git", MFD_CLOEXEC));
   const base::Descriptor errors(::memfd_create("indurop-git", MFD_CLOEXEC));
   std::vector<std::string> command{"git", "--no-optional-locks", "-c", "core.fsmonitor=false", "-C", folder.string()};
   command.insert(command.end(), words.begin(), words.end());
-  const auto child = base::spawn({.words = command,
-                                  .program = {},
-                                  .environment = environment_without_repository(),
-                                  .output = output.get(),
-                                  .errors = errors.get()});
-  if (!child) {
-    return Problem{fmt::format("cannot start git: {}", std::strerror(child.error().sys_errno))};
+  // A hook of git that runs us names its own repository in the environment, which need not be that of the folder.
+  const auto code =
+      run_child({.words = command,
+                 .program = {},
+                 .environment = base::environment_without({"GIT_DIR", "GIT_WORK_TREE", "GIT_INDEX_FILE", "GIT_PREFIX",
+                                                           "GIT_COMMON_DIR", "GIT_OBJECT_DIRECTORY"}),
+                 .output = output.get(),
+                 .errors = errors.get()});
+  if (!code) {
+    return code.error();
   }
-  int status = 0;
-  while (::waitpid(*child, &status, 0) < 0) {
-    if (errno != EINTR) {
-      return Problem{fmt::format("lost git: {}", std::strerror(errno))};
-    }
-  }
-  if (base::exit_code_of(status) != 0) {
+  if (*code != 0) {
     const std::string said = content_of(errors);
     return Problem{printable(base::trimmed(std::string_view(said).substr(0, said.find('\n'))))};
   }
@@ -80,6 +61,17 @@ Result<std::string, Problem> git(const fs::path& folder, const std::vector<std::
 std::string git_line(const fs::path& folder, const std::vector<std::string>& words) {
   const auto text = git(folder, words);
   return text ? std::string(base::trimmed(*text)) : std::string();
+}
+
+// Splits what git prints with -z.
+std::vector<std::string> entries_of(std::string_view text) {
+  std::vector<std::string> entries;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\0'), text.size());
+    entries.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return entries;
 }
 
 // Returns the folder with `.git` that this one is in; empty if there is none.
@@ -101,15 +93,10 @@ bool has_changes(const fs::path& folder) {
   constexpr std::string_view kNew = "?? ";
   const fs::path root = git_line(folder, {"rev-parse", "--show-toplevel"});
   const auto status = git(folder, {"status", "--porcelain", "-z", "--", "."});
-  for (std::size_t at = 0; status && at < status->size();) {
-    const std::size_t end = std::min(status->find('\0', at), status->size());
-    const std::string entry = status->substr(at, end - at);
-    if (!entry.starts_with(kNew) || !deploy::is_packed_plant(root / entry.substr(kNew.size()))) {
-      return true;
-    }
-    at = end + 1;
-  }
-  return false;
+  const std::vector<std::string> entries = status ? entries_of(*status) : std::vector<std::string>{};
+  return std::any_of(entries.begin(), entries.end(), [&](const std::string& entry) {
+    return !entry.starts_with(kNew) || !deploy::is_packed_plant(root / entry.substr(kNew.size()));
+  });
 }
 
 base::Json state_of(const fs::path& folder) {
@@ -137,10 +124,8 @@ Result<std::optional<GitTree>, Problem> read_git_tree(const fs::path& folder) {
         folder.string(), listed.error().text, tree.string())};
   }
   GitTree made;
-  for (std::size_t at = 0; at < listed->size();) {
-    const std::size_t end = listed->find('\0', at);
-    made.paths.insert(listed->substr(at, end - at));
-    at = end == std::string::npos ? end : end + 1;
+  for (std::string& path : entries_of(*listed)) {
+    made.paths.insert(std::move(path));
   }
   made.state = state_of(folder);
   return std::optional(std::move(made));

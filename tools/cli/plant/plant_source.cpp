@@ -49,9 +49,9 @@ Result<std::map<std::string, std::filesystem::path>, base::Problem> archived(Con
 
 Result<PlantSource, Failure> read_bundle(Context& context, const std::string& file) {
   PlantSource source;
-  source.temporary = std::make_unique<TemporaryFolder>();
+  source.temporary = std::make_unique<base::TemporaryFolder>();
   if (source.temporary->path().empty()) {
-    return Failure{kFailed, kNoTemporaryFolder};
+    return Failure{kFailed, base::kNoTemporaryFolder};
   }
   auto opened = deploy::open_bundle(file, source.temporary->path());
   if (!opened) {
@@ -98,9 +98,9 @@ Result<PlantSource, Failure> read_plant_source(Context& context, const std::stri
     return Failure{kCheckFailed, {}};
   }
   PlantSource source;
-  source.temporary = std::make_unique<TemporaryFolder>();
+  source.temporary = std::make_unique<base::TemporaryFolder>();
   if (source.temporary->path().empty()) {
-    return Failure{kFailed, kNoTemporaryFolder};
+    return Failure{kFailed, base::kNoTemporaryFolder};
   }
   auto project = find_project(checked.plant, {also.begin(), also.end()});
   if (!project) {

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "core/base/temporary_folder.h"
 #include "deploy/bundle/bundle.h"
 #include "deploy/transaction/package.h"
 #include "tools/cli/command/verb.h"
 #include "tools/cli/plant/project_files.h"
-#include "tools/client/process/temporary_folder.h"
 
 namespace indurop::tools {
 
@@ -22,7 +22,7 @@ struct PlantSource {
   deploy::PackedPlant packed;
   std::optional<Project> project;                    // whose sources travel; a bundle has packed its own
   std::optional<deploy::BundleSignature> signature;  // of a bundle
-  std::unique_ptr<TemporaryFolder> temporary;        // the files of a bundle, or the archive of the sources
+  std::unique_ptr<base::TemporaryFolder> temporary;  // the files of a bundle, or the archive of the sources
 };
 
 // Reads and checks a manifest, or a bundle, and packs its files and sources. Prints the diagnostics. `also` and

@@ -48,9 +48,9 @@ Result<void, base::Problem> write_release(Context& context, const deploy::Packed
 }
 
 Result<ReleaseBundle, Failure> read_release(const std::string& file, const std::filesystem::path& keys) {
-  ReleaseBundle bundle{{}, std::make_unique<TemporaryFolder>()};
+  ReleaseBundle bundle{{}, std::make_unique<base::TemporaryFolder>()};
   if (bundle.temporary->path().empty()) {
-    return Failure{kFailed, kNoTemporaryFolder};
+    return Failure{kFailed, base::kNoTemporaryFolder};
   }
   auto opened = deploy::open_bundle(file, bundle.temporary->path());
   if (!opened) {

@@ -11,10 +11,10 @@
 #include <string>
 
 #include "core/base/problem.h"
+#include "core/base/temporary_folder.h"
 #include "deploy/link/blob_server.h"
 #include "deploy/transaction/package.h"
 #include "tools/cli/command/verb.h"
-#include "tools/client/process/temporary_folder.h"
 
 namespace indurop::tools {
 
@@ -28,7 +28,7 @@ Result<void, base::Problem> write_release(Context& context, const deploy::Packed
 
 struct ReleaseBundle {
   deploy::PackedPlant packed;
-  std::unique_ptr<TemporaryFolder> temporary;  // its files
+  std::unique_ptr<base::TemporaryFolder> temporary;  // its files
 };
 // Unpacks and checks a file of write_release(). With `keys`, the folder of a deployer, only one that a deployer of the
 // same plant has signed. Errors: no such file, damaged, a plant instead of a release, signed by another authority.

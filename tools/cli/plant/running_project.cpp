@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/temporary_folder.h"
 #include "core/keys/digest.h"
 #include "tools/cli/plant/board_file.h"
 #include "tools/client/board/board_texts.h"
-#include "tools/client/process/temporary_folder.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {
@@ -56,9 +56,9 @@ Result<deploy::OpenedProject, Failure> fetch_project(DiscoveredBoards& boards, s
     return Failure{kFailed, fmt::format("plant {} was deployed without its sources (see <sources> of the manifest)",
                                         running.plant)};
   }
-  const TemporaryFolder temporary;
+  const base::TemporaryFolder temporary;
   if (temporary.path().empty()) {
-    return Failure{kFailed, kNoTemporaryFolder};
+    return Failure{kFailed, base::kNoTemporaryFolder};
   }
   const std::filesystem::path archive = temporary.path() / "sources";
   const BoardFile wanted{printable(running.source.board), running.source.agent, found->digest, found->size};

@@ -8,6 +8,7 @@
 
 #include "control/plc/front/compiler.h"
 #include "core/base/replace_file.h"
+#include "core/base/temporary_folder.h"
 #include "tools/cli/plc/debug_link.h"
 #include "tools/cli/plc/debug_session.h"
 #include "tools/cli/plc/debugged_node.h"
@@ -15,7 +16,6 @@
 #include "tools/cli/plc/plc_file.h"
 #include "tools/cli/plc/plc_sources.h"
 #include "tools/client/process/interrupt.h"
-#include "tools/client/process/temporary_folder.h"
 
 namespace indurop::tools {
 namespace {
@@ -56,7 +56,7 @@ int debug(Context& context, PlcDebugRequest& request) {
   if (!compiled.ok) {
     return kCheckFailed;
   }
-  const TemporaryFolder folder;
+  const base::TemporaryFolder folder;
   if (folder.path().empty()) {
     context.out.error("cannot make a folder for temporary files");
     return kFailed;

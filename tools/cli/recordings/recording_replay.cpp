@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/replace_file.h"
+#include "core/base/temporary_folder.h"
 #include "history/recorder/sources.h"
 #include "history/recording/mcap_reader.h"
 #include "tools/cli/command/node_program.h"
@@ -13,7 +14,6 @@
 #include "tools/cli/recordings/recorded_csv.h"
 #include "tools/cli/recordings/replayed_over.h"
 #include "tools/client/process/child.h"
-#include "tools/client/process/temporary_folder.h"
 #include "tools/client/recordings/replay_setup.h"
 
 namespace indurop::tools {
@@ -67,7 +67,7 @@ int draw(Context& context, const ReplayOptions& options, const std::filesystem::
 // Runs the node as a child process, because there is work to do afterwards.
 int as_child(Context& context, const ReplayOptions& options, const std::filesystem::path& program,
              config::RunOptions run) {
-  const TemporaryFolder folder;
+  const base::TemporaryFolder folder;
   if (folder.path().empty()) {
     context.out.error("no temporary folder can be made; is TMPDIR writable?");
     return kFailed;

@@ -17,6 +17,7 @@
 #include "core/base/program_folder.h"
 #include "core/base/read_file.h"
 #include "core/base/spawn.h"
+#include "core/base/temporary_folder.h"
 #include "core/base/text.h"
 #include "core/rt/clock.h"
 #include "store/vars/store.h"
@@ -25,7 +26,6 @@
 #include "tools/client/node/node_choice.h"
 #include "tools/client/process/gentle.h"
 #include "tools/client/process/interrupt.h"
-#include "tools/client/process/temporary_folder.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {
@@ -142,7 +142,7 @@ Result<ShadowReport, Failure> run_shadow(Context& context, const ShadowRequest& 
   if (!std::filesystem::exists(file, ignored)) {
     return Failure{kCheckFailed, fmt::format("{}: no such file; build it, or correct its name", file)};
   }
-  const TemporaryFolder folder;
+  const base::TemporaryFolder folder;
   if (folder.path().empty()) {
     return Failure{kFailed, "no temporary folder can be made; is TMPDIR writable?"};
   }

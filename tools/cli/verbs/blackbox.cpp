@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/temporary_folder.h"
 #include "core/rt/clock.h"
 #include "history/recorder/boxes.h"
 #include "history/recorder/join.h"
@@ -25,7 +26,6 @@
 #include "tools/client/board/board_commander.h"
 #include "tools/client/node/node_choice.h"
 #include "tools/client/process/interrupt.h"
-#include "tools/client/process/temporary_folder.h"
 #include "tools/client/text/table.h"
 #include "tools/client/text/units.h"
 #include "tools/client/values/variables.h"
@@ -159,7 +159,7 @@ int fetch_remote(Context& context, BlackboxOptions& options) {
   };
   std::erase_if(boxes, [&](const BoardBox& box) { return plant_of(box.agent) != plant_of(first.agent); });
   const auto chosen = boxes_of_moment(boxes, first.end_ns);
-  const TemporaryFolder folder;
+  const base::TemporaryFolder folder;
   if (folder.path().empty()) {
     context.out.error("no temporary folder can be made; is TMPDIR writable?");
     return kFailed;
@@ -189,7 +189,7 @@ int fetch(Context& context, BlackboxOptions& options) {
 // Processes one box, or the boxes of several boards from one moment, like any recording.
 template <class Act>
 int use(Context& context, BlackboxOptions& options, Act act) {
-  const TemporaryFolder folder;
+  const base::TemporaryFolder folder;
   std::filesystem::path file = folder.path() / "moment.mcap";
   if (options.is_remote()) {
     options.what = file.string();

@@ -21,12 +21,12 @@
 #include "core/base/descriptor.h"
 #include "core/base/program_folder.h"
 #include "core/base/spawn.h"
+#include "core/base/temporary_folder.h"
 #include "core/rt/clock.h"
 #include "core/rt/thread.h"
 #include "tools/cli/command/example_folder.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/process/interrupt.h"
-#include "tools/client/process/temporary_folder.h"
 
 namespace indurop::tools {
 namespace {
@@ -159,7 +159,7 @@ int demo(Context& context, const DemoOptions& options) {
       return kFailed;
     }
   }
-  std::optional<TemporaryFolder> temporary;
+  std::optional<base::TemporaryFolder> temporary;
   if (options.folder.empty()) {
     temporary.emplace();
     if (temporary->path().empty()) {

@@ -9,13 +9,13 @@
 #include <set>
 #include <string>
 
+#include "core/base/temporary_folder.h"
 #include "core/keys/digest.h"
 #include "deploy/link/link_keys.h"
 #include "tools/cli/plant/plant_source.h"
 #include "tools/cli/plant/running_project.h"
 #include "tools/cli/verbs/package_options.h"
 #include "tools/cli/verbs/verbs.h"
-#include "tools/client/process/temporary_folder.h"
 #include "tools/client/text/table.h"
 
 namespace indurop::tools {
@@ -78,9 +78,9 @@ Result<std::size_t, Failure> compare_sources(DiscoveredBoards& boards, std::uint
   if (!project || !deployed) {
     return std::size_t{0};
   }
-  const TemporaryFolder folder;
+  const base::TemporaryFolder folder;
   if (folder.path().empty()) {
-    return Failure{kFailed, kNoTemporaryFolder};
+    return Failure{kFailed, base::kNoTemporaryFolder};
   }
   const auto fetched = fetch_project(boards, self, running, folder.path());
   if (!fetched) {

@@ -6,13 +6,13 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/temporary_folder.h"
 #include "deploy/bundle/bundle.h"
 #include "deploy/words/deployment_words.h"
 #include "tools/cli/plant/plant_package.h"
 #include "tools/cli/plant/plant_source.h"
 #include "tools/cli/verbs/package_options.h"
 #include "tools/cli/verbs/verbs.h"
-#include "tools/client/process/temporary_folder.h"
 #include "tools/client/text/units.h"
 
 namespace indurop::tools {
@@ -57,9 +57,9 @@ int package(Context& context, const PackageOptions& options) {
         "{} is a bundle, which was signed or not when it was packed; --keys is for a manifest", options.file));
     return kUsage;
   }
-  const TemporaryFolder temporary;
+  const base::TemporaryFolder temporary;
   if (temporary.path().empty()) {
-    context.out.error(kNoTemporaryFolder);
+    context.out.error(base::kNoTemporaryFolder);
     return kFailed;
   }
   const PlantPackage about{source->plant.name, source->packed.id, source->packed.package.comment, options.version,

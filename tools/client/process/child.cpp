@@ -7,19 +7,22 @@
 #include <cerrno>
 #include <cstring>
 
-#include "core/base/spawn.h"
-
 namespace indurop::tools {
 
 Result<int, base::Problem> run_child(const std::vector<std::string>& arguments, int output) {
-  const auto child = base::spawn({.words = arguments, .program = {}, .output = output});
+  return run_child(base::Launch{.words = arguments, .program = {}, .output = output});
+}
+
+Result<int, base::Problem> run_child(const base::Launch& launch) {
+  const std::string& program = launch.words[0];
+  const auto child = base::spawn(launch);
   if (!child) {
-    return base::Problem{fmt::format("cannot start {}: {}", arguments[0], std::strerror(child.error().sys_errno))};
+    return base::Problem{fmt::format("cannot start {}: {}", program, std::strerror(child.error().sys_errno))};
   }
   int status = 0;
   while (::waitpid(*child, &status, 0) < 0) {
     if (errno != EINTR) {
-      return base::Problem{fmt::format("lost {}: {}", arguments[0], std::strerror(errno))};
+      return base::Problem{fmt::format("lost {}: {}", program, std::strerror(errno))};
     }
   }
   return base::exit_code_of(status);

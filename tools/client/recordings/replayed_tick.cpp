@@ -18,10 +18,10 @@
 #include "core/base/exit_code.h"
 #include "core/base/read_file.h"
 #include "core/base/spawn.h"
+#include "core/base/temporary_folder.h"
 #include "core/base/text.h"
 #include "store/vars/store.h"
 #include "tools/client/process/node_program.h"
-#include "tools/client/process/temporary_folder.h"
 #include "tools/client/recordings/replay_setup.h"
 
 namespace indurop::tools {
@@ -71,7 +71,7 @@ Result<ReplayedTick, Problem> replay_tick(const std::filesystem::path& file, con
   if (!setup) {
     return std::move(setup).error();
   }
-  const TemporaryFolder folder;
+  const base::TemporaryFolder folder;
   const auto program = find_node_program();
   if (program.empty() || folder.path().empty()) {
     return Problem{program.empty() ? fmt::format("{} is not found", kNodeProgram)

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "tools/client/process/temporary_folder.h"
+#include "core/base/temporary_folder.h"
 
 namespace indurop::tools {
 namespace {
@@ -56,7 +56,7 @@ class ProjectFiles : public testing::Test {
   }
   [[nodiscard]] fs::path folder() const { return outer_.path() / "project"; }
 
-  TemporaryFolder outer_;
+  base::TemporaryFolder outer_;
   config::Plant plant_;
 };
 

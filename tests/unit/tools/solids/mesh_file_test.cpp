@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "tools/client/process/temporary_folder.h"
+#include "core/base/temporary_folder.h"
 
 namespace indurop::solids {
 namespace {
@@ -30,7 +30,7 @@ class MeshFiles : public testing::Test {
     return file ? fs::relative(*file, folder_.path()).string() : file.error().text;
   }
 
-  tools::TemporaryFolder folder_;
+  base::TemporaryFolder folder_;
 };
 
 TEST_F(MeshFiles, Of_packages_are_in_the_folders_around) {

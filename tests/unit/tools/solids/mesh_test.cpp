@@ -9,8 +9,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "core/base/temporary_folder.h"
 #include "tests/unit/tools/solids/bodies.h"
-#include "tools/client/process/temporary_folder.h"
 #include "tools/solids/cut.h"
 
 namespace indurop::solids {
@@ -24,7 +24,7 @@ class Meshes : public testing::Test {
     return file;
   }
 
-  tools::TemporaryFolder folder_;
+  base::TemporaryFolder folder_;
 };
 
 Eigen::AlignedBox3d extent_of(const Surface& surface) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A temporary folder of this run.
+// A temporary folder of this run. Not real-time safe.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-namespace indurop::tools {
+namespace indurop::base {
 
 // What to tell the user if it could not be created.
 inline constexpr const char* kNoTemporaryFolder = "cannot create a temporary folder; is TMPDIR a folder with room?";
@@ -37,4 +37,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace indurop::tools
+}  // namespace indurop::base
