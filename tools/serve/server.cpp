@@ -143,23 +143,31 @@ std::optional<Reply> Server::answer(const Request& request, Ticket ticket) {
       break;
   }
   match.call.boards = &boards_;
+  return answered(match);
+}
+
+Reply Server::answered(const Match& match) {
   return match.route->answer(api_, match.call);
 }
 
-std::function<void()> Server::job_of(Helper& helper, Match match, Ticket ticket) {
-  match.call.boards = &helper.boards;
+std::function<void()> Server::job_of(Match match, Ticket ticket, Answer answer) {
   const auto request = std::make_shared<Request>(*match.call.request);
   match.call.request = request.get();
-  return [this, request, match = std::move(match), ticket] {
-    door_->reply(ticket, match.route->answer(api_, match.call));
+  return [this, request, match = std::move(match), ticket, answer = std::move(answer)] {
+    door_->reply(ticket, answer ? answer(match) : answered(match));
   };
 }
 
-std::optional<Reply> Server::hand_over(Helper& helper, Match match, Ticket ticket) {
-  if (!helper.worker.add(job_of(helper, std::move(match), ticket))) {
+std::optional<Reply> Server::hand_over(Worker& worker, Match match, Ticket ticket, Answer answer) {
+  if (!worker.add(job_of(std::move(match), ticket, std::move(answer)))) {
     return refusal(status::kUnavailable, "too many requests wait already; try again later");
   }
   return std::nullopt;
+}
+
+std::optional<Reply> Server::hand_over(Helper& helper, Match match, Ticket ticket) {
+  match.call.boards = &helper.boards;
+  return hand_over(helper.worker, std::move(match), ticket);
 }
 
 std::optional<Reply> Server::try_to_sign_in(Match match, Ticket ticket) {
@@ -172,18 +180,15 @@ std::optional<Reply> Server::try_to_sign_in(Match match, Ticket ticket) {
   if (!attempt) {
     return refusal(status::kUnavailable, "too many attempts to sign in from this address; try again in a few seconds");
   }
-  const auto own = std::make_shared<Request>(request);
-  match.call.request = own.get();
-  const bool added = sign_in_.worker.add([this, own, match = std::move(match), ticket, attempt = *attempt] {
-    Reply reply = match.route->answer(api_, match.call);
+  auto refused = hand_over(sign_in_.worker, std::move(match), ticket, [this, attempt = *attempt](const Match& own) {
+    Reply reply = answered(own);
     sign_in_.limit.end(attempt, !reply.wrong_credentials.empty(), rt::now_ns());
-    door_->reply(ticket, std::move(reply));
+    return reply;
   });
-  if (!added) {
+  if (refused) {
     sign_in_.limit.end(*attempt, false, rt::now_ns());
-    return refusal(status::kUnavailable, "too many requests wait already; try again later");
   }
-  return std::nullopt;
+  return refused;
 }
 
 std::optional<Reply> Server::ask_plant(Match match, Ticket ticket) {
@@ -191,14 +196,7 @@ std::optional<Reply> Server::ask_plant(Match match, Ticket ticket) {
     return refusal(status::kNotFound, "this server shows its own host only; start it with --plant");
   }
   match.call.plant = &plant_->watch;
-  const auto request = std::make_shared<Request>(*match.call.request);
-  match.call.request = request.get();
-  if (!plant_->worker.add([this, request, match = std::move(match), ticket] {
-        door_->reply(ticket, match.route->answer(api_, match.call));
-      })) {
-    return refusal(status::kUnavailable, "too many requests wait already; try again later");
-  }
-  return std::nullopt;
+  return hand_over(plant_->worker, std::move(match), ticket);
 }
 
 bool Server::is_remote(const Match& match) const {
@@ -216,19 +214,15 @@ std::optional<Reply> Server::ask_remote(Match match, Ticket ticket) {
   }
   if (match.route->pace == Pace::Quick && remote == Remote::Reported) {
     match.call.boards = &boards_;
-    return match.route->answer(api_, match.call);
+    return answered(match);
   }
   match.call.boards = &plant_->boards;
-  const auto request = std::make_shared<Request>(*match.call.request);
-  match.call.request = request.get();
-  const bool added = plant_->worker.add([this, request, remote, board, match = std::move(match), ticket] {
+  return hand_over(plant_->worker, std::move(match), ticket, [this, remote, board](const Match& own) {
     if (remote == Remote::Reported) {
       remote_boards_.fetch(plant_->watch, board);
     }
-    door_->reply(ticket, match.route->answer(api_, match.call));
+    return answered(own);
   });
-  return added ? std::nullopt
-               : std::optional(refusal(status::kUnavailable, "too many requests wait already; try again later"));
 }
 
 std::optional<Reply> Server::order_plant(Match match, Ticket ticket) {
@@ -236,11 +230,7 @@ std::optional<Reply> Server::order_plant(Match match, Ticket ticket) {
     return refusal(status::kNotFound, "this server shows its own host only; start it with --plant");
   }
   match.call.link = &options_.link;
-  const auto request = std::make_shared<Request>(*match.call.request);
-  match.call.request = request.get();
-  if (!plant_->orders.add_if_idle([this, request, match = std::move(match), ticket] {
-        door_->reply(ticket, match.route->answer(api_, match.call));
-      })) {
+  if (!plant_->orders.add_if_idle(job_of(std::move(match), ticket))) {
     return refusal(status::kConflict, "the plant is being changed already");
   }
   return std::nullopt;
@@ -252,14 +242,7 @@ std::optional<Reply> Server::ask_plc(Match match, Ticket ticket) {
   }
   match.call.boards = &plc_->boards;
   match.call.plc = &plc_->pictures;
-  const auto request = std::make_shared<Request>(*match.call.request);
-  match.call.request = request.get();
-  if (!plc_->worker.add([this, request, match = std::move(match), ticket] {
-        door_->reply(ticket, match.route->answer(api_, match.call));
-      })) {
-    return refusal(status::kUnavailable, "too many requests wait already; try again later");
-  }
-  return std::nullopt;
+  return hand_over(plc_->worker, std::move(match), ticket);
 }
 
 std::optional<Reply> Server::let_wait(const Match& match, Ticket ticket) {
@@ -268,7 +251,9 @@ std::optional<Reply> Server::let_wait(const Match& match, Ticket ticket) {
     if (i == waiting_.size()) {
       waiting_.push_back(std::make_unique<Helper>(options_.node));
     }
-    if (waiting_[i]->worker.add_if_idle(job_of(*waiting_[i], match, ticket))) {
+    Match own = match;
+    own.call.boards = &waiting_[i]->boards;
+    if (waiting_[i]->worker.add_if_idle(job_of(std::move(own), ticket))) {
       return std::nullopt;
     }
   }

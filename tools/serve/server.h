@@ -58,6 +58,9 @@ class Server final : public House {
     SignInLimit limit;
     Worker worker;  // verifies passwords
   };
+  // Answers on another thread; empty: by route and call.
+  using Answer = std::function<Reply(const Match& match)>;
+  std::optional<Reply> hand_over(Worker& worker, Match match, Ticket ticket, Answer answer = {});
   std::optional<Reply> hand_over(Helper& helper, Match match, Ticket ticket);
   std::optional<Reply> let_wait(const Match& match, Ticket ticket);
   std::optional<Reply> ask_plant(Match match, Ticket ticket);
@@ -67,8 +70,9 @@ class Server final : public House {
   // Returns true if the request is about a board of another host.
   [[nodiscard]] bool is_remote(const Match& match) const;
   std::optional<Reply> ask_remote(Match match, Ticket ticket);
-  // Returns the job that answers on the helper's thread.
-  std::function<void()> job_of(Helper& helper, Match match, Ticket ticket);
+  // Returns the job that answers, with a copy of the request.
+  std::function<void()> job_of(Match match, Ticket ticket, Answer answer = {});
+  Reply answered(const Match& match);
   void announce() const;
 
   tools::ServeOptions options_;

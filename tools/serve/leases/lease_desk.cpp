@@ -19,12 +19,17 @@ bool LeaseDesk::Held::bind(const vars::Store& store) {
   return true;
 }
 
-std::string LeaseDesk::take(const std::string& board, Taken taken, const vars::Store& store, operate::Lease lease) {
+LeaseDesk::Held LeaseDesk::held_of(const std::string& board, Taken taken) {
   Held held;
   held.board = board;
   held.who = std::move(taken.who);
   held.what = std::move(taken.what);
   held.variables = std::move(taken.variables);
+  return held;
+}
+
+std::string LeaseDesk::take(const std::string& board, Taken taken, const vars::Store& store, operate::Lease lease) {
+  Held held = held_of(board, std::move(taken));
   held.layout_hash = store.layout_hash();
   held.generation = store.header().generation.load();
   held.lease = std::move(lease);
@@ -48,11 +53,7 @@ Result<std::string, tools::Failure> LeaseDesk::take(const deploy::BoardReport& b
   if (!number) {
     return number.error();
   }
-  Held held;
-  held.board = board.board;
-  held.who = std::move(taken.who);
-  held.what = std::move(taken.what);
-  held.variables = std::move(taken.variables);
+  Held held = held_of(board.board, std::move(taken));
   held.remote = *number;
   return desk_.add(std::move(held));
 }

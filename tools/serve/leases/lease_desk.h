@@ -65,6 +65,7 @@ class LeaseDesk {
     bool bind(const vars::Store& store);
   };
 
+  static Held held_of(const std::string& board, Taken taken);
   // Returns the outcome if the lease has ended.
   const char* renew(Held& held);
   void release(Held& held);
