@@ -28,10 +28,8 @@ bool is_key_in_der(std::string_view content) {
   if (content.empty() || static_cast<unsigned char>(content[0]) != kSequence) {
     return false;
   }
-  const auto* at = reinterpret_cast<const unsigned char*>(content.data());
-  const std::unique_ptr<EVP_PKEY, decltype(&::EVP_PKEY_free)> key(
-      ::d2i_AutoPrivateKey(nullptr, &at, static_cast<long>(content.size())), &::EVP_PKEY_free);
-  const bool found = key != nullptr || reads_as<PKCS12>(content, &::d2i_PKCS12, &::PKCS12_free) ||
+  const bool found = reads_as<EVP_PKEY>(content, &::d2i_AutoPrivateKey, &::EVP_PKEY_free) ||
+                     reads_as<PKCS12>(content, &::d2i_PKCS12, &::PKCS12_free) ||
                      reads_as<X509_SIG>(content, &::d2i_X509_SIG, &::X509_SIG_free);
   ::ERR_clear_error();
   return found;

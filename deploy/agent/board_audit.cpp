@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/rt/clock.h"
+#include "deploy/agent/action_kinds.h"
 #include "deploy/transaction/write_words.h"
 #include "store/operate/audit.h"
 
@@ -72,9 +73,7 @@ Command signed_by(Command command, const std::string& user) {
 }
 
 std::string note_command(const Command& command, const std::string& user, const std::string& outcome) {
-  const bool recording =
-      command.action == Action::Record || command.action == Action::EndRecord || command.action == Action::DropRecord;
-  if (recording && outcome == "unchanged") {
+  if (is_recording(command.action) && outcome == "unchanged") {
     return {};  // repeated to keep it running
   }
   const WriteOrder order = has_words(command.action) ? parse_module_target(command.target) : WriteOrder{};
