@@ -8,11 +8,15 @@ so what threads do when they begin and end cancels out."""
 import argparse
 import collections
 import os
+import pathlib
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "support"))
+from nodes import new_node  # noqa: E402
 
 # Periods of 1 ms: strace stops a thread at each call, which 100 us would not survive.
 XML = """<root>
@@ -65,12 +69,8 @@ def run(command, environment):
         sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stdout}{done.stderr}")
 
 
-def node_name():
-    return f"tickpath{os.getpid()}"
-
-
 def node_command(arguments, xml, milliseconds):
-    return [os.path.join(arguments.bin, "indurop-node"), xml, "--node", node_name(), "-q", "--duration",
+    return [os.path.join(arguments.bin, "indurop-node"), xml, "--node", arguments.node, "-q", "--duration",
             f"{milliseconds}ms"]
 
 
@@ -141,6 +141,7 @@ def main():
     parser.add_argument("--io", required=True, help="libiodispat.so")
     parser.add_argument("--io-user", required=True, help="a module that uses the variables of I/O")
     arguments = parser.parse_args()
+    arguments.node = new_node(os.path.join(arguments.bin, "indurop"), "tickpath")
     with open(os.path.join(arguments.bin, "indurop-node"), "rb") as program:
         if b"__asan_init" in program.read() or b"__tsan_init" in open(program.name, "rb").read():
             skip("a sanitizer has its own allocator and system calls")
@@ -186,7 +187,6 @@ def main():
                 print(f"  FAILED: {name} sleeps more than once per tick")
                 failed = True
     finally:
-        subprocess.run([os.path.join(arguments.bin, "indurop"), "clean", "--quiet", "--node", node_name()], check=False)
         shutil.rmtree(folder)
     sys.exit(1 if failed else 0)
 

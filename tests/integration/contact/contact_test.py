@@ -23,6 +23,7 @@ CONTACT = "30"  # ROBOT_ERR_CONTACT: recordings hold numbers
 class Cell:
     def __init__(self, options):
         self.options = options
+        self.node = new_node(options.bin / "indurop", "contact-")
         options.work.mkdir(parents=True, exist_ok=True)
 
     def run(self, name, seconds, change=(), config="module.xml"):
@@ -39,7 +40,7 @@ class Cell:
             (folder / file).write_text(text)
         indurop = self.options.bin / "indurop"
         subprocess.run([indurop, "run", config, "--sim", "--until", f"{seconds}s", "--record", "run.mcap", "-q",
-                        "--node", new_node(indurop, "contact-")], check=True, cwd=folder, stdout=subprocess.DEVNULL)
+                        "--node", self.node], check=True, cwd=folder, stdout=subprocess.DEVNULL)
         subprocess.run([indurop, "recording", "export", "run.mcap", "--csv", "run.csv", "-q"], check=True, cwd=folder,
                        stdout=subprocess.DEVNULL)
         with open(folder / "run.csv", encoding="utf-8") as file:

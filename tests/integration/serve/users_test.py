@@ -3,6 +3,7 @@
 """Users of indurop-serve: passwords that Python's hashlib hashed, roles, limits to boards and variables, sessions that end,
 and what the audit log says. users_test.py PROGRAMS FAKE_NODE [TEST...]"""
 
+import contextlib
 import hashlib
 import http.client
 import itertools
@@ -29,6 +30,26 @@ def hash_of(password, salt=None, cost=10):
     salt = salt or os.urandom(16)
     hashed = hashlib.scrypt(password.encode(), salt=salt, n=2**cost, r=8, p=1, dklen=32, maxmem=2**27)
     return f"scrypt:{cost}:8:1:" + salt.hex() + ":" + hashed.hex()
+
+
+@contextlib.contextmanager
+def threads_of(work, number):
+    """Threads that repeat `work` until the block ends."""
+    ended = threading.Event()
+
+    def repeat():
+        while not ended.is_set():
+            work()
+
+    threads = [threading.Thread(target=repeat) for _ in range(number)]
+    for thread in threads:
+        thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        for thread in threads:
+            thread.join()
 
 
 class Users:
@@ -113,34 +134,26 @@ def test_guesses_of_many_connections_do_not_lock_others_out(setting):
     """Each guess costs the server as much as with indurop users, and their clients do not wait for the refusal."""
     slow = f'role="operate" password="{hash_of(PASSWORD, cost=15)}"'
     server = serve(setting, Users(setting, anna=slow, ada=slow))
-    ended, refused, guesses = threading.Event(), threading.Semaphore(0), itertools.count()
+    refused, guesses = threading.Semaphore(0), itertools.count()
 
     def guess():
-        while not ended.is_set():
-            name = ("ada", f"stranger{next(guesses)}")[next(guesses) % 2]
-            connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=0.5)
-            try:
-                connection.request("POST", f"{API}/session", json.dumps({"user": name, "password": "a wrong one"}),
-                                   {"Content-Type": "application/json"})
-                if connection.getresponse().status == 503:
-                    refused.release()
-            except OSError:
-                pass
-            finally:
-                connection.close()
+        name = ("ada", f"stranger{next(guesses)}")[next(guesses) % 2]
+        connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=0.5)
+        try:
+            connection.request("POST", f"{API}/session", json.dumps({"user": name, "password": "a wrong one"}),
+                               {"Content-Type": "application/json"})
+            if connection.getresponse().status == 503:
+                refused.release()
+        except OSError:
+            pass
+        finally:
+            connection.close()
 
-    guessing = [threading.Thread(target=guess) for _ in range(40)]
-    for thread in guessing:
-        thread.start()
-    try:
+    with threads_of(guess, 40):
         for _ in range(100):
             assert refused.acquire(timeout=harness.DEADLINE_S), "more guesses than the server verifies"
         for _ in range(5):
             assert sign_in(server, "anna"), "another user signs in meanwhile, even from the same address"
-    finally:
-        ended.set()
-        for thread in guessing:
-            thread.join()
     wait_for(lambda: sign_in(server, "ada"), "the one whose password was guessed to sign in again")
 
 
@@ -150,27 +163,18 @@ def test_a_flood_of_requests_keeps_no_refusal_out_of_the_log(setting):
     anna, eve = sign_in(server, "anna"), sign_in(server, "eve")
     board = f"{API}/boards/{setting.node}"
     keep = f"POST {board}/jog/none/keep HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: Bearer {anna}\r\n\r\n".encode()
-    ended = threading.Event()
 
     def flood():
-        while not ended.is_set():
-            connections = [socket.create_connection(("127.0.0.1", server.port), timeout=harness.DEADLINE_S) for _ in range(50)]
-            for connection in connections:
-                connection.sendall(keep)
-            for connection in connections:
-                connection.recv(4096)
-                connection.close()
+        connections = [socket.create_connection(("127.0.0.1", server.port), timeout=harness.DEADLINE_S) for _ in range(50)]
+        for connection in connections:
+            connection.sendall(keep)
+        for connection in connections:
+            connection.recv(4096)
+            connection.close()
 
-    flooding = [threading.Thread(target=flood) for _ in range(2)]
-    for thread in flooding:
-        thread.start()
-    try:
+    with threads_of(flood, 2):
         for _ in range(20):
             assert server.post(f"{board}/lock", {"lock": "none"}, eve).status == 403
-    finally:
-        ended.set()
-        for thread in flooding:
-            thread.join()
     wait_for(lambda: sum(entry["who"] == "eve" and entry["action"] == "refused" for entry in entries(setting)) == 20,
              "an entry for each refusal")
 
