@@ -22,6 +22,12 @@ inline bool is_about_node(Action action) noexcept {
   return action == Action::StopNode || action == Action::StartNode || action == Action::RestartNode;
 }
 
+// A stop is carried out even if it cannot be logged: a full disk must not keep anybody from stopping what moves (IEC
+// 62443-3-3, SR 2.10).
+inline bool is_stop(Action action) noexcept {
+  return action == Action::StopModule || action == Action::StopNode;
+}
+
 inline bool is_about_alarms(Action action) noexcept {
   return action == Action::AckAlarms || action == Action::ShelveAlarms || action == Action::UnshelveAlarms;
 }

@@ -167,9 +167,13 @@ CommandReply BoardCommands::carry_out(const Command& command, const std::string&
   }
   if (const std::string unnoted = is_recording(command.action) ? "" : note_command(command, verdict.user, "begun");
       !unnoted.empty()) {
-    log_.warning("a command from {} was refused: it cannot be noted down in {}", command.host, unnoted);
-    return reply(command, Outcome::Refused,
-                 fmt::format("nothing was changed, because it cannot be noted down in {}", unnoted));
+    const bool stop = is_stop(command.action);
+    log_.warning("a command from {} {} it cannot be noted down in {}", command.host,
+                 stop ? "is a stop and carried out, although" : "was refused, because", unnoted);
+    if (!stop) {
+      return reply(command, Outcome::Refused,
+                   fmt::format("nothing was changed, because it cannot be noted down in {}", unnoted));
+    }
   }
   deadline_ = now + kPatience;
   WriteOrder words = parse_module_target(command.target);

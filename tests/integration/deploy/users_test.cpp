@@ -111,12 +111,15 @@ TEST_F(RemoteUsers, Change_nothing_that_the_audit_log_cannot_take) {
     EXPECT_THAT(full.err, HasSubstr("cannot be noted down"));
     EXPECT_THAT(full.err, HasSubstr("No space left on device"));
   }
+  EXPECT_EQ(indurop({"stop", "@" + board("a")}).code, 0) << "a full disk does not prevent a stop";
+  EXPECT_EQ(indurop({"start", "@" + board("a")}).code, 1) << "a start needs the log";
   std::filesystem::remove(log);
+  ASSERT_EQ(indurop({"start", "@" + board("a")}).code, 0);
   EXPECT_EQ(as("anna", {"set", "torque=3"}).code, 0);
   const Json after = audit();
-  ASSERT_EQ(after.size(), 2U) << after;
-  EXPECT_EQ(after[0]["outcome"], "begun");
-  EXPECT_EQ(after[1]["outcome"], "done");
+  ASSERT_EQ(after.size(), 4U) << after;  // of the start and the write
+  EXPECT_EQ(after[2]["outcome"], "begun");
+  EXPECT_EQ(after[3]["outcome"], "done");
 }
 
 TEST_F(RemoteUsers, Keep_their_rights_when_the_agent_starts_again_and_lose_them_with_their_keys) {

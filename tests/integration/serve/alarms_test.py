@@ -199,6 +199,19 @@ def test_a_module_that_is_stopped_is_an_alarm(setting):
     wait_for(lambda: code() == 0 and alarms() == {}, "that all is well")
 
 
+def test_a_stop_needs_no_log(setting):
+    example = setting.programs.parent / "examples" / "plc" / "module.xml"
+    setting.start(setting.programs / "indurop", "run", example, "-q", "--node", setting.node)
+    ask = [setting.programs / "indurop", "status", "--check", "--node", setting.node]
+    wait_for(lambda: subprocess.run(ask, env=setting.environment, capture_output=True, check=False).returncode == 0, "the node")
+    server = setting.start_server("--write", "--token-file", setting.tokens, "--audit", "/proc/nowhere/audit.jsonl")
+    module = f"{API}/boards/{setting.node}/modules/conveyor"
+    assert server.post(module + "/restart", {}).status == 500
+    stopped = server.post(module + "/stop", {})
+    assert stopped.status == 200 and "/proc/nowhere/audit.jsonl" in stopped.json()["not_logged"], stopped.json()
+    assert server.post(module + "/start", {}).status == 500
+
+
 def test_orders_that_make_no_sense_change_nothing(setting):
     press = Press(setting)
     press.set("press::oil", 95)

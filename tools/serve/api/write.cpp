@@ -73,12 +73,17 @@ std::optional<Refused> Write::begin(const Affected& affected) {
   if (problem.empty()) {
     return std::nullopt;
   }
-  return Refused{status::kFailed,
-                 {fmt::format("nothing was written, because it cannot be noted down in {}: {}",
-                              api_->audit().file().string(), problem)}};
+  unnoted_ = fmt::format("cannot be noted down in {}: {}", api_->audit().file().string(), problem);
+  if (affected.stop) {
+    return std::nullopt;
+  }
+  return Refused{status::kFailed, {fmt::format("nothing was written, because it {}", unnoted_)}};
 }
 
-Reply Write::done(const base::Json& body) {
+Reply Write::done(base::Json body) {
+  if (!unnoted_.empty()) {
+    body["not_logged"] = unnoted_;
+  }
   entry_.outcome = "done";
   static_cast<void>(api_->audit().note(entry_));  // its begin is logged already
   return json_reply(body);

@@ -27,9 +27,10 @@ class Write final : public ChangeNote {
   Reply failed(const Refused& refused);
   // Fails because store/operate/ refused it.
   Reply failed(const operate::Refusal& refusal);
-  // A write that cannot be logged is not done.
+  // A write that cannot be logged is not done, except for a stop.
   std::optional<Refused> begin(const Affected& affected) override;
-  Reply done(const base::Json& body);
+  // `body` says of a stop that it could not be logged.
+  Reply done(base::Json body);
 
  private:
   void note_failure(const std::string& why);
@@ -37,6 +38,7 @@ class Write final : public ChangeNote {
   Api* api_;
   const Client* client_;
   AuditEntry entry_;
+  std::string unnoted_;  // why its begin could not be logged
 };
 
 }  // namespace indurop::serve

@@ -40,6 +40,7 @@ struct Refused {
 struct Affected {
   std::vector<std::string> variables;  // full names of variables or parts of them
   bool board = false;                  // more than variables: modules, the write lock, all forces
+  bool stop = false;                   // only stops what runs; done even if it cannot be noted
 };
 
 // Decides whether a client may make a change, and notes it in the audit log.

@@ -196,7 +196,7 @@ Board::Done LocalBoard::command(scheduler::ModuleCommand what, const std::string
   if (const auto locked = operate::refusal(name(), vars::Act::Command)) {
     return refused(*locked);
   }
-  if (auto unnoted = note.begin({{}, true})) {
+  if (auto unnoted = note.begin({{}, true, what == scheduler::ModuleCommand::Stop})) {
     return std::move(*unnoted);
   }
   const auto done = tools::command_module(name(), what, module, kLongestCommandNs, note.who());

@@ -266,7 +266,7 @@ Board::Done RemoteBoard::command(scheduler::ModuleCommand what, const std::strin
   const auto word = what == ModuleCommand::Stop    ? Order::What::StopModule
                     : what == ModuleCommand::Start ? Order::What::StartModule
                                                    : Order::What::RestartModule;
-  const auto answer = send({word, {module}, 0, {}, {}}, {{}, true}, note);
+  const auto answer = send({word, {module}, 0, {}, {}}, {{}, true, what == ModuleCommand::Stop}, note);
   if (!answer) {
     return answer.error();
   }
