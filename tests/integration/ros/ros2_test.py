@@ -300,9 +300,13 @@ def test_other_middlewares(arm):
     stranger.say("writer", topic, ros2.dds_type(ros2.CANCEL + "_Request"), "typehash=RIHS01_;")
     wait_for(lambda: stranger.matched.get(topic) == 1, "the service")
     accepted, goal_id = arm.client.start(trajectory((1, arm.joints())))
-    stranger.write(topic, ros2.CANCEL + "_Request", {"guid": 1, "sequence": 1, "goal_info": {
-        "goal_id": {"uuid": [0] * 16}, "stamp": ros2.duration(0)}}, header=True)
-    wait_for(lambda: "RMW_IMPLEMENTATION" in arm.setting.log_of_door(), "it is reported")
+    request = {"guid": 1, "sequence": 1, "goal_info": {"goal_id": {"uuid": [0] * 16}, "stamp": ros2.duration(0)}}
+
+    def reported():  # the door misses what is written before it has discovered the writer, which this side cannot see
+        stranger.write(topic, ros2.CANCEL + "_Request", request, header=True)
+        return "RMW_IMPLEMENTATION" in arm.setting.log_of_door()
+
+    wait_for(reported, "it is reported")
     assert accepted and arm.client.result(goal_id)[0] == SUCCEEDED
     stranger.close()
 
