@@ -65,8 +65,8 @@ std::size_t paragraph_at(const std::vector<std::string_view>& lines, std::size_t
 
 // Returns the column in which a line that continues this one begins.
 std::size_t continued_at(std::string_view line) {
-  const bool option =
-      line.size() > kHelpDescription && line.substr(kHelpDescription - 1, 1) == " " && line[kHelpDescription] != ' ';
+  const bool option = !is_plain(line) && line.size() > kHelpDescription && line[kHelpDescription - 1] == ' ' &&
+                      line[kHelpDescription] != ' ';
   return option ? kHelpDescription : std::min(line.find_first_not_of(' '), line.size());
 }
 

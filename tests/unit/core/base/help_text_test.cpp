@@ -40,6 +40,13 @@ TEST(HelpText, A_paragraph_with_a_long_line_is_filled_again) {
             "short line " + words(17) + "\n" + words(4) + " and a last one.\nExamples:\n  indurop get a\n");
 }
 
+// Its space in column 29 makes the first line look like an option with its description.
+TEST(HelpText, A_paragraph_is_no_option_wherever_its_words_end) {
+  const std::string line = "Reads everything that a board keeps " + words(14);
+  EXPECT_EQ(wrapped_help(line + "\nand a last line.\n"),
+            "Reads everything that a board keeps " + words(12) + "\nword word and a last line.\n");
+}
+
 TEST(HelpText, A_letter_of_several_bytes_is_one_column) {
   std::string line;
   for (std::size_t i = 0; i < kHelpWidth; ++i) {
