@@ -66,6 +66,9 @@ void StateCheck::plan(const Kept& kept) {
   }
   std::map<std::string, std::string> names;  // names of files in files/, by digest
   for (const std::string& id : kept_deployments(committed, kept.most)) {
+    if (id == kInstalledRelease) {
+      continue;  // its files belong to the installation of the machine
+    }
     const bool needed = id == committed.current || id == committed.previous;
     if (!needed && !files.has(id)) {
       continue;  // this board was absent then

@@ -223,6 +223,24 @@ TEST_F(AgentDamage, Of_a_release_of_the_platform_is_found_as_that_of_a_deploymen
   EXPECT_EQ(verified().damaged[0].file, file);
 }
 
+// After the first update, the board ran the installed release before; after `platform back`, it runs that one.
+TEST_F(AgentDamage, Of_the_installed_release_no_files_are_missing) {
+  deploy(version("1"));
+  const auto ignore = [](const std::string& /*line*/) {};
+  auto platform = AgentState::open_platform("a", ignore);
+  ASSERT_TRUE(platform) << platform.error().text;
+  Committed committed;
+  committed.generation = 1;
+  committed.plant = "cell";
+  committed.members = {"a"};
+  committed.current = kInstalledRelease;
+  committed.previous = kInstalledRelease;
+  ASSERT_TRUE(platform->commit(committed));
+  const StateReport found = verified();
+  EXPECT_TRUE(found.damaged.empty()) << describe(found.damaged.front());
+  EXPECT_TRUE(found.releases.empty());
+}
+
 TEST_F(AgentDamage, In_both_copies_is_refused_with_file_and_digest_until_it_is_fetched_again) {
   const std::string id = deploy(version("1"));
   const std::string digest = keys::digest_of(contents_[id]["mods/main.so"]);
