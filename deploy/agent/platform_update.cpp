@@ -354,7 +354,7 @@ std::string PlatformUpdate::message() const {
     return fmt::format("going back from release {} to {}: {}", version(), title_of(current), last_->ended);
   }
   if (steady && running_.id != current) {
-    return fmt::format("release {} cannot be run, see the log of the agent; {} runs", title_of(current), version());
+    return fmt::format("release {} {}; {} runs", title_of(current), kCannotBeRun, version());
   }
   if (steady && last_ && !last_->ended.empty()) {
     return fmt::format("release {} was rolled back: {}", title_of(last_->order.deployment), last_->ended);

@@ -161,6 +161,8 @@ inline std::string shown_id(const std::string& id) {
 }
 // Id of the release of the platform that is installed on a board, in place of that of one that was deployed to it.
 inline constexpr const char* kInstalledRelease = "installed";
+// In the message of a board that runs another release than its committed one.
+inline constexpr const char* kCannotBeRun = "cannot be run, see the log of the agent";
 // Blob name in place of a digest: the list of a board's earlier deployments, as JSON.
 inline constexpr const char* kHistoryBlob = "history";
 // Blob name: the variables that the board's node currently reads from other boards, and their age.

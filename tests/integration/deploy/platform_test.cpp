@@ -36,6 +36,7 @@ TEST_F(Platform, All_boards_switch_together_and_back) {
   EXPECT_THAT(node_program("a"), HasSubstr(platform_folder("a").string()));
   EXPECT_TRUE(agent("a").running());
   EXPECT_EQ(agent("a").pid(), agent_before) << "for the service manager it is the same process";
+  EXPECT_EQ(indurop({"verify", "--plant"}).code, 0) << "the installed release, which it ran before, has no files here";
   EXPECT_THAT(update(path("9.1.release")).out, HasSubstr("already"));
 
   const Outcome back = indurop({"platform", "back", "--health", "500ms"});
@@ -194,6 +195,11 @@ TEST_F(Platform, A_release_whose_copies_are_damaged_is_restored) {
   start_agent("a");
   EXPECT_TRUE(wait_until([&] { return !platform()[board("a")].value("message", "").empty(); })) << agent("a").err();
   EXPECT_THAT(agent("a").err(), HasSubstr("cannot be run"));
+  const Outcome again = update(path("9.1.release"));
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(again.out, Not(HasSubstr("already")));
+  EXPECT_TRUE(both_run("9.1")) << agent("a").err();
+  EXPECT_THAT(node_program("a"), HasSubstr(platform_folder("a").string()));
 }
 
 // Without a service manager: this test starts the agent again, as often as it ends.

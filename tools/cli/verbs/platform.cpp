@@ -118,6 +118,11 @@ std::string older_refusal(const BoardRoster& roster, const std::vector<std::stri
   return {};
 }
 
+// A board that cannot run its release, because both copies of a file are damaged, gets it again.
+bool runs(const deploy::BoardReport& report, const std::string& release) {
+  return report.current == release && report.message.find(deploy::kCannotBeRun) == std::string::npos;
+}
+
 // Fills in what every switch to a release has in common.
 Deployment deployment_of(const PlatformRequest& request, const std::string& plant, std::vector<std::string> boards,
                          const BoardRoster& roster, const std::string& id, const std::string& version) {
@@ -160,7 +165,7 @@ int deploy_release(Context& context, PlatformRequest& request) {
   }
   const std::string& version = packed.package.release;
   if (std::all_of(meant->boards.begin(), meant->boards.end(),
-                  [&](const std::string& board) { return roster.find(board)->report.current == packed.id; })) {
+                  [&](const std::string& board) { return runs(roster.find(board)->report, packed.id); })) {
     context.out.line(fmt::format("release {} ({}) runs on all boards of plant {} already", version,
                                  deploy::shown_id(packed.id), meant->plant));
     return kOk;
