@@ -85,6 +85,10 @@ class Launcher {
     const std::chrono::nanoseconds past{rt::wall_ns() - last_->begun_ns};
     if (last_->starts >= kTrialStarts) {
       last_->ended = fmt::format("its agent was started {} times and did not do well", kTrialStarts);
+    } else if (past < -longest) {
+      // Neither this process nor the next one could tell when the trial has lasted too long.
+      last_->expired = true;
+      last_->ended = "the clock was set back, so it is not known how long it has lasted";
     } else if (past > longest) {
       last_->expired = true;
       last_->ended = fmt::format("it was not committed within {} s",

@@ -194,8 +194,9 @@ void PlatformUpdate::work(DeployLink& link, rt::MonoTime now) {
 void PlatformUpdate::follow(rt::MonoTime now) {
   const Phase phase = transaction_.phase();
   if (!leaving_ && (phase == Phase::Trial || phase == Phase::Healthy)) {
-    if (stood_.count() == 0 && process_.condition() == NodeCondition::Running) {
-      stood_ = std::chrono::nanoseconds(rt::wall_ns() - last_->begun_ns);
+    const std::chrono::nanoseconds past{rt::wall_ns() - last_->begun_ns};  // useless if the clock was set meanwhile
+    if (stood_.count() == 0 && process_.condition() == NodeCondition::Running && past.count() > 0 && past < kRecent) {
+      stood_ = past;
       log_.info("release {}: the node stood for {:.1f} s", version(), std::chrono::duration<double>(stood_).count());
     }
     const BoardProcess::Health health = process_.health(transaction_.order().boards);

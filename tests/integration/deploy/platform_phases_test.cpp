@@ -12,6 +12,7 @@ namespace indurop::test {
 namespace {
 
 using testing::AnyOf;
+using testing::HasSubstr;
 
 class PlatformPhases : public PlatformTest {
  protected:
@@ -122,6 +123,22 @@ TEST_F(PlatformPhases, A_board_that_stays_away_in_the_trial_takes_all_back) {
   EXPECT_EQ(desk.wait(kLong + kLong), 5);
   start_agent("b");
   EXPECT_EQ(common_release(), kInstalled);
+}
+
+// A board without a battery for its clock starts in 1970. The kernel would end each of its three starts only after the
+// longest time of a trial.
+TEST_F(PlatformPhases, A_board_whose_clock_is_set_back_in_the_trial_takes_all_back) {
+  Program& desk = update_until("trial", "60s");
+  stop_agent("b", SIGKILL);
+  kill_node(board("b"));
+  auto last = deploy::load_switch(platform_folder("b"));
+  ASSERT_TRUE(last.has_value());
+  last->begun_ns += std::chrono::nanoseconds(std::chrono::hours(1)).count();
+  ASSERT_TRUE(deploy::save_switch(platform_folder("b"), *last).ok());
+  start_agent("b");
+  EXPECT_EQ(desk.wait(kLong), 5);
+  EXPECT_EQ(common_release(), kInstalled);
+  EXPECT_THAT(agent("b").err(), HasSubstr("the clock was set back"));
 }
 
 TEST_F(PlatformPhases, A_desk_killed_in_the_trial) {
