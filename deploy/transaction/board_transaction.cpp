@@ -44,7 +44,9 @@ void BoardTransaction::resume(const Order& order, bool joining, const std::strin
 }
 
 Do BoardTransaction::committed_elsewhere(const BoardReport& from) {
-  if (phase_ != Phase::Healthy || from.current != order_.deployment || from.generation != order_.generation) {
+  // The deployer has seen this board healthy. Its trial may have begun again since then: its agent was killed.
+  const bool waits = phase_ == Phase::Healthy || (phase_ == Phase::Trial && !joining_);
+  if (!waits || from.current != order_.deployment || from.generation != order_.generation) {
     return Do::Nothing;
   }
   phase_ = Phase::Steady;

@@ -253,9 +253,22 @@ TEST_F(Successor, Waits_as_usual_once_it_has_heard_the_deployer) {
   EXPECT_EQ(listen_for(kSecond), Do::GoBack);
 }
 
+// Its health window may be longer than the time for which it waits for the deployer.
+TEST_F(Successor, Commits_what_another_board_has_committed_also_if_its_trial_has_begun_again) {
+  resume();
+  EXPECT_EQ(sut_.committed_elsewhere(committed(3)), Do::Commit);
+  EXPECT_EQ(sut_.phase(), Phase::Steady);
+}
+
+TEST_F(Successor, Of_a_board_that_joins_commits_once_it_is_healthy) {
+  resume({}, true);
+  EXPECT_EQ(sut_.committed_elsewhere(committed(3)), Do::Nothing);
+  now_ += kSecond;
+  EXPECT_EQ(sut_.node("", "", now_), Do::Commit);
+}
+
 TEST_F(Successor, Commits_what_another_board_has_committed_once_it_is_healthy) {
   resume();
-  EXPECT_EQ(sut_.committed_elsewhere(committed(3)), Do::Nothing) << "it is not healthy yet";
   now_ += kSecond;
   EXPECT_EQ(sut_.node("", "", now_), Do::Nothing);
   EXPECT_EQ(sut_.committed_elsewhere(committed(2)), Do::Nothing) << "that was another time";
