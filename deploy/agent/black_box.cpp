@@ -4,13 +4,13 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <system_error>
 #include <vector>
 
 #include "core/base/replace_file.h"
 #include "deploy/agent/run_image.h"
+#include "history/recorder/boxes.h"
 
 namespace indurop::deploy {
 
@@ -24,12 +24,11 @@ std::string BlackBox::keep() const {
   if (const auto written = base::replace_file(file, run_image(board_), base::Durable::Yes); !written) {
     return fmt::format("its black box could not be kept: {}", base::cannot_write(file.string(), written.error()));
   }
-  // Their names are times: the oldest comes first.
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
     files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  recorder::sort_oldest_first(files, file);
   for (std::size_t i = 0; i + kKept < files.size(); ++i) {
     std::filesystem::remove(files[i], error);
   }

@@ -37,6 +37,12 @@ void sort_newest_first(std::vector<Box>& boxes) {
 
 }  // namespace
 
+void sort_oldest_first(std::vector<std::filesystem::path>& files, const std::filesystem::path& next) {
+  const auto earlier = std::partition(files.begin(), files.end(), [&next](const auto& one) { return one > next; });
+  std::sort(files.begin(), earlier);
+  std::sort(earlier, files.end());
+}
+
 std::filesystem::path box_folder(const std::string& node) {
   return vars::state_directory(node) / "boxes";
 }

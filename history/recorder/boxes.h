@@ -26,4 +26,8 @@ Box read_box(const std::filesystem::path& file, const std::string& node);
 std::vector<Box> boxes_of(const std::string& node);
 std::vector<Box> boxes_here();
 
+// Sorts files whose names are times, before `next` is added: the oldest first. Files with a later time than `next` were
+// written while the clock was ahead, or it is behind now: they are the oldest.
+void sort_oldest_first(std::vector<std::filesystem::path>& files, const std::filesystem::path& next);
+
 }  // namespace indurop::recorder

@@ -4,7 +4,6 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <vector>
 
 #include "core/base/read_file.h"
@@ -31,8 +30,8 @@ constexpr std::chrono::minutes kBetween{1};
 constexpr std::chrono::milliseconds kRequestPoll{100};
 constexpr std::uint64_t kManyOverruns = 10;  // within a second
 
-// Deletes the oldest boxes, so that there is room for one more. Their names rise with time.
-void make_room(const std::filesystem::path& folder) {
+// Deletes the oldest boxes, so that there is room for `next`.
+void make_room(const std::filesystem::path& folder, const std::filesystem::path& next) {
   std::error_code ignored;
   std::vector<std::filesystem::path> boxes;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
@@ -40,7 +39,7 @@ void make_room(const std::filesystem::path& folder) {
       boxes.push_back(entry.path());
     }
   }
-  std::sort(boxes.begin(), boxes.end());
+  recorder::sort_oldest_first(boxes, next);
   for (std::size_t i = 0; i + kMaxBoxes <= boxes.size(); ++i) {
     std::filesystem::remove(boxes[i], ignored);
   }
@@ -59,10 +58,10 @@ Result<std::filesystem::path, base::Problem> write_box(recorder::About about, co
   if (error) {
     return base::Problem{fmt::format("cannot make {}: {}", folder.string(), error.message())};
   }
-  make_room(folder);
   const auto now = std::chrono::system_clock::now();
   const auto millis = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() % 1000;
   const auto file = folder / fmt::format("{:%Y%m%d-%H%M%S}-{:03}.mcap", fmt::gmtime(now), millis);
+  make_room(folder, file);
   about.reason = reason;
   auto recorder = recorder::Recorder::create(file, about, store, std::move(follower).value(), {});
   if (!recorder) {

@@ -46,6 +46,22 @@ TEST_F(BlackBoxTest, The_newest_are_kept) {
   EXPECT_EQ(files().size(), BlackBox::kKept);
 }
 
+// The clock was ahead once, or it begins in 1970 since its battery is empty.
+TEST_F(BlackBoxTest, The_last_one_is_kept_whatever_the_clock_was_before) {
+  std::filesystem::create_directories(folder_);
+  for (int day = 1; day < 10; ++day) {
+    std::ofstream(folder_ / ("2999010" + std::to_string(day) + "T000000.000Z.run")) << "ahead";
+  }
+  const BlackBox sut(folder_, "black_box_test_none");
+  const std::string said = sut.keep();
+  const std::string file = said.substr(said.find('/'));
+  EXPECT_TRUE(std::filesystem::exists(file)) << said;
+  const std::set<std::string> all = files();
+  EXPECT_EQ(all.size(), BlackBox::kKept);
+  EXPECT_FALSE(all.contains("29990101T000000.000Z.run"));
+  EXPECT_TRUE(all.contains("29990109T000000.000Z.run"));
+}
+
 TEST_F(BlackBoxTest, A_folder_that_cannot_be_created_is_reported) {
   const BlackBox sut("/proc/none", "black_box_test_none");
   EXPECT_THAT(sut.keep(), HasSubstr("could not be kept: cannot write /proc/none/"));
