@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "core/base/text.h"
@@ -29,6 +31,11 @@ std::string missing_file(const ParticipantKeys& keys) {
     }
   }
   return {};
+}
+
+std::string not_readable(const fs::path& path, std::error_code error) {
+  return fmt::format("cannot read {}: {}; the keys have to belong to the user who runs this (ls -l)", path.string(),
+                     error.message());
 }
 
 // Returns true if `text` is the permissions document that this release makes for the holder.
@@ -56,15 +63,18 @@ Result<ParticipantKeys, base::Problem> resolve_keys(const fs::path& folder, Role
   const char* const inside = role == Role::Deployer ? "deployer" : "viewer";
   std::vector<fs::path> places{absolute, absolute / inside};
   std::vector<fs::path> further;
-  for (const auto& entry : fs::directory_iterator(absolute / (std::string(inside) + "s"), error)) {
+  const fs::path others = absolute / (std::string(inside) + "s");
+  for (const auto& entry : fs::directory_iterator(others, error)) {
     further.push_back(entry.path());
   }
   std::sort(further.begin(), further.end());
   places.insert(places.end(), further.begin(), further.end());
   std::string revoked;
+  std::string closed = error && error != std::errc::no_such_file_or_directory ? not_readable(others, error) : "";
   for (const fs::path& place : places) {
     const ParticipantKeys keys(place);
     if (!fs::exists(keys.certificate, error)) {
+      closed = error ? not_readable(keys.certificate, error) : closed;
       continue;
     }
     if (std::string missing = missing_file(keys); !missing.empty()) {
@@ -79,6 +89,9 @@ Result<ParticipantKeys, base::Problem> resolve_keys(const fs::path& folder, Role
   if (!revoked.empty()) {
     return base::Problem{
         fmt::format("the keys in {} were revoked; make others with indurop keys add --{} NAME", revoked, inside)};
+  }
+  if (!closed.empty()) {
+    return base::Problem{std::move(closed)};
   }
   return base::Problem{
       fmt::format("there are no keys in {}: it has neither identity.pem nor the folder {} (indurop keys "

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <iterator>
 
+#include "core/base/read_file.h"
 #include "core/keys/deploy_list.h"
 #include "core/keys/plant_parts.h"
 
@@ -59,6 +61,9 @@ Done PlantKeys::add(const Holder& holder, Instant until) const {
     }
     return base::Problem{fmt::format("{} has keys already, in {}; a new certificate for them: indurop keys renew {}",
                                      holder.name, same->folder.string(), holder.name)};
+  }
+  if (Done able = can_issue(folder_); !able) {
+    return able;
   }
   const fs::path folder = folder_ / folder_of(holder.role, holder.name);
   const fs::path fresh = aside(folder);
@@ -139,6 +144,14 @@ Done PlantKeys::add_tool(const std::string& name, const VariableRights& rights, 
 }
 
 Done PlantKeys::renew(const KeyListing& whose, Instant until) const {
+  const fs::path own = ParticipantKeys(whose.folder).key;
+  const auto key = base::read_file(own);
+  if (!key) {
+    return base::Problem{base::cannot_read(own, key.error())};
+  }
+  if (Done able = can_issue(folder_); !able) {
+    return able;
+  }
   Holder holder{whose.role, plant(), whose.name};
   if (whose.role == Role::Tool) {
     auto rights = read_rights(whose.folder / kVariables);
@@ -147,8 +160,7 @@ Done PlantKeys::renew(const KeyListing& whose, Instant until) const {
     }
     holder.variables = std::move(rights).value();
   }
-  const Credentials credentials =
-      issue_credentials(read_authority(folder_), holder, read_text(ParticipantKeys(whose.folder).key), until);
+  const Credentials credentials = issue_credentials(read_authority(folder_), holder, *key, until);
   if (credentials.certificate.empty() || credentials.permissions.empty()) {
     return crypto_failed();
   }
@@ -158,6 +170,9 @@ Done PlantKeys::renew(const KeyListing& whose, Instant until) const {
 }
 
 Done PlantKeys::revoke(const KeyListing& whose) const {
+  if (Done able = can_issue(folder_); !able) {
+    return able;
+  }
   const Authority authority = read_authority(folder_);
   const auto issuer = read_certificate(authority.certificate);
   if (!issuer) {
@@ -190,6 +205,16 @@ fs::path PlantKeys::authority_key() const {
 bool PlantKeys::exist() const {
   std::error_code error;
   return fs::exists(folder_ / kAuthority, error);
+}
+
+std::string PlantKeys::unreadable() const {
+  for (const char* name : {kAuthority, kGovernance, kRevoked, kIssued, kDeployPublic}) {
+    const auto text = base::read_file(folder_ / name);
+    if (!text && text.error().sys_errno != ENOENT) {
+      return base::cannot_read(folder_ / name, text.error());
+    }
+  }
+  return {};
 }
 
 std::string PlantKeys::plant() const {

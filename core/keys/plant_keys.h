@@ -67,6 +67,9 @@ class PlantKeys {
   Result<std::size_t, base::Problem> finish_rotation() const;
 
   [[nodiscard]] bool exist() const;
+  // Returns why a file that all participants share cannot be read, and must not be written without what is in it;
+  // empty if each can be read or does not exist.
+  [[nodiscard]] std::string unreadable() const;
   [[nodiscard]] std::string plant() const;  // empty: there is no readable authority
   [[nodiscard]] std::vector<KeyListing> list(Instant now) const;
 

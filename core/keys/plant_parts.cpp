@@ -109,6 +109,13 @@ Authority read_authority(const fs::path& folder) {
   return {read_text(folder / kAuthority), read_text(folder / kAuthorityKey)};
 }
 
+Done can_issue(const fs::path& folder) {
+  const auto key = base::read_file(folder / kAuthorityKey);
+  return key ? Done{}
+             : base::Problem{base::cannot_read(folder / kAuthorityKey, key.error()) +
+                             "; this key of the authority signs certificates and the list of revoked ones"};
+}
+
 Credentials issue_credentials(const Authority& authority, const Holder& holder, const std::string& key, Instant until) {
   const Validity validity{valid_from(), until};
   Credentials credentials;
@@ -220,6 +227,10 @@ KeyListing listing_of(Role role, const fs::path& folder, const std::string& auth
   const ParticipantKeys keys(folder);
   for (const fs::path& key : {keys.key, folder / kDeployKey, folder / kDeployKeyBefore}) {
     listing.exposed = listing.exposed.empty() ? exposed_key(key) : listing.exposed;
+  }
+  if (const auto read = base::read_file(keys.certificate); !read) {
+    listing.problem = base::cannot_read(keys.certificate, read.error());
+    return listing;
   }
   const std::string certificate = read_text(keys.certificate);
   const auto facts = read_certificate(certificate);

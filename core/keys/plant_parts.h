@@ -57,6 +57,8 @@ std::string folder_of(Role role, const std::string& name);
 std::string authority_name(const std::string& plant);
 base::Problem not_for(Role role, const std::string& name);
 Authority read_authority(const std::filesystem::path& folder);
+// A problem: the private key of the authority cannot be read.
+Done can_issue(const std::filesystem::path& folder);
 
 // The documents for `key`: its certificate, and permissions for exactly that name.
 struct Credentials {

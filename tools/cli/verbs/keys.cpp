@@ -49,8 +49,11 @@ int list(Context& context, const KeysRequest& request) {
   std::vector<std::string> exposed;
   for (const keys::KeyListing& each : keys.list(now)) {
     const auto days = std::chrono::floor<std::chrono::days>(each.validity.until - now).count();
-    table.add({Cell(to_text(each.role)), Cell(each.name), Cell(keys::utc_text(each.validity.until)),
-               Cell(std::to_string(days), JsonValue(days)), Cell(each.problem), Cell(each.folder.string()),
+    const bool is_known = each.validity.until != keys::Instant{};  // its certificate was read
+    table.add({Cell(to_text(each.role)), Cell(each.name),
+               is_known ? Cell(keys::utc_text(each.validity.until)) : Cell("-", JsonValue()),
+               is_known ? Cell(std::to_string(days), JsonValue(days)) : Cell("-", JsonValue()), Cell(each.problem),
+               Cell(each.folder.string()),
                Cell(fmt::format("{}", fmt::join(each.variables.read, " ")), each.variables.read),
                Cell(fmt::format("{}", fmt::join(each.variables.write, " ")), each.variables.write)});
     ok = ok && (each.problem.empty() || each.revoked);

@@ -35,6 +35,10 @@ keys::PlantKeys keys_of(const KeysRequest& request) {
 }
 
 bool usable(Context& context, const keys::PlantKeys& keys) {
+  if (const std::string problem = keys.unreadable(); !problem.empty()) {
+    context.out.error(problem + "; nothing was changed. The keys have to belong to the user who runs this (ls -l)");
+    return false;
+  }
   if (keys.plant().empty()) {
     context.out.error(
         fmt::format("there are no keys in {}; make them with indurop keys init PLANT, or say with --dir "

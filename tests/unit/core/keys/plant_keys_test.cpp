@@ -55,6 +55,37 @@ TEST_F(Keys, Are_never_made_over_others) {
   EXPECT_EQ(text_of(sut.folder() / "ca.key"), before);
 }
 
+// What is written again without what was in it would lose certificates, revocations or deployers.
+TEST_F(Keys, A_shared_file_that_cannot_be_read_is_named) {
+  for (const std::string file : {"ca.pem", "governance.p7s", "revoked.pem", "issued.txt", "deploy.pub"}) {
+    make();
+    EXPECT_EQ(sut.unreadable(), "");
+    fs::remove(sut.folder() / file);
+    fs::create_directory(sut.folder() / file);
+    EXPECT_THAT(sut.unreadable(), HasSubstr("cannot read " + (sut.folder() / file).string()));
+    fs::remove_all(sut.folder());
+  }
+}
+
+TEST_F(Keys, Without_the_key_of_the_authority_nothing_is_issued_and_revoked) {
+  make();
+  fs::remove(sut.folder() / "ca.key");
+  const std::string why = "cannot read " + (sut.folder() / "ca.key").string();
+  EXPECT_THAT(sut.add("c", now + days(1)).error().text, HasSubstr(why));
+  EXPECT_THAT(sut.renew(listed("a"), now + days(1)).error().text, HasSubstr(why));
+  EXPECT_THAT(sut.revoke(listed("a")).error().text, HasSubstr(why));
+  EXPECT_FALSE(listed("a").revoked);
+}
+
+TEST_F(Keys, A_certificate_and_a_private_key_that_cannot_be_read_are_named) {
+  make();
+  const ParticipantKeys board(sut.board("a"));
+  fs::remove(board.key);
+  EXPECT_THAT(sut.renew(listed("a"), now + days(1)).error().text, HasSubstr("cannot read " + board.key.string()));
+  fs::remove(board.certificate);
+  EXPECT_THAT(listed("a").problem, HasSubstr("cannot read " + board.certificate.string()));
+}
+
 TEST_F(Keys, Nothing_is_left_behind_where_they_cannot_be_made) {
   std::ofstream(folder_ / "file") << "x";
   const PlantKeys below(folder_ / "file" / "keys");
