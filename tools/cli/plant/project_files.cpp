@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/plant/project_files.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <set>
 #include <utility>
 
@@ -24,6 +27,12 @@ using base::Problem;
 
 constexpr const char* kInEachFolderOfKeys = "governance.p7s";
 
+Problem unreadable(const fs::path& path, const base::FileProblem& problem) {
+  return {base::cannot_read(path, problem) +
+          "; sources are sent: check its permissions (ls -l), name another folder in <sources>, or write "
+          "<sources>off</sources>"};
+}
+
 Result<std::set<std::string>, Problem> files_below(const fs::path& folder) {
   std::set<std::string> paths;
   std::error_code error;
@@ -34,6 +43,8 @@ Result<std::set<std::string>, Problem> files_below(const fs::path& folder) {
     const bool holds_keys = is_folder && fs::exists(at->path() / kInEachFolderOfKeys, ignored);
     if (name.starts_with('.') || (is_folder && name.starts_with("build")) || holds_keys) {
       at.disable_recursion_pending();
+    } else if (is_folder && ::faccessat(AT_FDCWD, at->path().c_str(), R_OK | X_OK, AT_EACCESS) != 0) {
+      return unreadable(at->path(), base::file_problem(errno));
     } else if ((at->is_regular_file(ignored) || at->is_symlink(ignored)) && at->path().extension() != ".mcap") {
       paths.insert(at->path().lexically_relative(folder));
     }
@@ -83,6 +94,9 @@ class Gathering {
     const fs::path source = project_.folder / path;
     std::error_code error;
     const auto kind = fs::symlink_status(source, error).type();
+    if (kind == fs::file_type::none) {  // not even its kind can be read
+      return unreadable(source, base::file_problem(error.value()));
+    }
     if (kind == fs::file_type::symlink || kind == fs::file_type::directory) {
       project_.skipped.push_back(
           {path, kind == fs::file_type::symlink ? Project::Skipped::Link : Project::Skipped::Repository});
@@ -106,7 +120,7 @@ class Gathering {
   Result<void, Problem> add_file(const std::string& path, const fs::path& source) {
     const auto text = base::read_file(source, deploy::kMaxProjectBytes);
     if (!text && text.error().kind != base::FileProblem::Kind::TooLarge) {
-      return Problem{base::cannot_read(source, text.error())};
+      return unreadable(source, text.error());
     }
     if (text && keys::holds_private_key(*text)) {
       left_out_.push_back(path);

@@ -7,8 +7,10 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <tuple>
 
 #include "core/base/temporary_folder.h"
+#include "tests/support/unprivileged.h"
 
 namespace indurop::tools {
 namespace {
@@ -66,6 +68,27 @@ TEST_F(ProjectFiles, Recordings_and_what_was_built_are_no_sources) {
     put(file);
   }
   EXPECT_THAT(paths(), UnorderedElementsAre("CMakeLists.txt", "plant.xml", "src/tick.cpp", "mcap/notes.txt"));
+}
+
+// Others would get a plant that they cannot build.
+TEST_F(ProjectFiles, That_cannot_be_read_are_named_and_not_left_out) {
+  put("lib/part.cpp");
+  fs::permissions(outer_.path(), fs::perms(0755));
+  const fs::path part = folder() / "lib/part.cpp";
+  for (const auto& [path, rights, named] : {std::tuple(folder() / "lib", 0444, folder() / "lib"),
+                                            {folder() / "lib", 0000, folder() / "lib"},
+                                            {part, 0000, part}}) {
+    const fs::perms before = fs::status(path).permissions();
+    fs::permissions(path, fs::perms(rights));
+    {
+      const test::WithoutRoot user;
+      if (user.held()) {
+        EXPECT_THAT(problem(), HasSubstr("cannot read " + named.string() + ": Permission denied"));
+        EXPECT_THAT(problem(), HasSubstr("<sources>off</sources>"));
+      }
+    }
+    fs::permissions(path, before);
+  }
 }
 
 TEST_F(ProjectFiles, In_a_work_tree_they_are_what_git_lists) {
