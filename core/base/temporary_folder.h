@@ -3,15 +3,13 @@
 
 #pragma once
 
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <system_error>
 
 namespace indurop::base {
-
-// What to tell the user if it could not be created.
-inline constexpr const char* kNoTemporaryFolder = "cannot create a temporary folder; is TMPDIR a folder with room?";
 
 // Removes the folder with its contents in the destructor.
 class TemporaryFolder {
@@ -20,7 +18,14 @@ class TemporaryFolder {
     std::error_code error;
     const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
     std::string name = (parent / "indurop-XXXXXX").string();
-    path_ = error || ::mkdtemp(name.data()) == nullptr ? "" : name;
+    if (!error && ::mkdtemp(name.data()) != nullptr) {
+      path_ = name;
+      return;
+    }
+    const std::string reason = (error ? error : std::error_code(errno, std::generic_category())).message();
+    const std::string place = error ? "" : " in " + parent.string();
+    problem_ = "cannot create a temporary folder" + place + ": " + reason +
+               "; is TMPDIR a folder with room, to which this user may write?";
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -32,9 +37,12 @@ class TemporaryFolder {
   }
   // Empty: it could not be created.
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+  // Why it could not be created, and what to do.
+  [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
 
  private:
   std::filesystem::path path_;
+  std::string problem_;
 };
 
 }  // namespace indurop::base

@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <map>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/base/file_problem.h"
 #include "core/base/read_file.h"
@@ -30,6 +32,24 @@ bool is_library(const std::string& name) {
 
 // Files by their path in the package.
 using Files = std::map<std::string, fs::path>;
+
+// A problem: this user may not read a part of the installation. A release without it would be another one.
+Result<void, Problem> may_read(const fs::path& prefix) {
+  std::vector<fs::path> parts{prefix / "lib", prefix / "lib64", prefix / "share/indurop"};
+  for (const char* name : kNeededPrograms) {
+    parts.push_back(prefix / "bin" / name);
+  }
+  for (const char* name : kFurtherPrograms) {
+    parts.push_back(prefix / "bin" / name);
+  }
+  for (const fs::path& part : parts) {
+    std::error_code ignored;
+    if (::access(part.c_str(), fs::is_directory(part, ignored) ? R_OK | X_OK : R_OK) != 0 && errno == EACCES) {
+      return Problem{base::cannot_read(part, base::file_problem(EACCES))};
+    }
+  }
+  return {};
+}
 
 void add_libraries(const fs::path& prefix, const fs::path& folder, const std::string& architecture, Files& files) {
   std::error_code error;
@@ -53,6 +73,9 @@ void add_shared(const fs::path& prefix, const std::string& architecture, Files& 
 }
 
 Result<void, Problem> add_installation(const fs::path& prefix, Files& files) {
+  if (auto able = may_read(prefix); !able) {
+    return able;
+  }
   const std::string architecture = architecture_of(prefix / "bin/indurop-agent");
   std::error_code error;
   for (const char* name : kNeededPrograms) {

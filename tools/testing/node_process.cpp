@@ -73,7 +73,7 @@ NodeProcess::NodeProcess(const std::string& node, bool plant, const std::vector<
     : node_(node), patience_(patience), output_(::memfd_create("output of a node", MFD_CLOEXEC)), plant_(plant) {
   if (!user_chose_state_folder() && state_.emplace().path().empty()) {
     end();
-    throw std::runtime_error(base::kNoTemporaryFolder);
+    throw std::runtime_error(state_->problem());
   }
   std::array<int, 2> ends{-1, -1};
   // A socket: a write to a node that has ended raises no signal in this process.

@@ -51,7 +51,7 @@ Result<PlantSource, Failure> read_bundle(Context& context, const std::string& fi
   PlantSource source;
   source.temporary = std::make_unique<base::TemporaryFolder>();
   if (source.temporary->path().empty()) {
-    return Failure{kFailed, base::kNoTemporaryFolder};
+    return Failure{kFailed, source.temporary->problem()};
   }
   auto opened = deploy::open_bundle(file, source.temporary->path());
   if (!opened) {
@@ -82,6 +82,9 @@ Result<PlantSource, Failure> read_plant_source(Context& context, const std::stri
   if (const auto found = find_config(file); !found) {
     return found.error();
   }
+  if (const auto opened = base::open_file(file); !opened && opened.error().kind == base::FileProblem::Kind::System) {
+    return Failure{kFailed, base::cannot_read(file, opened.error()) + "; check its permissions (ls -l)"};
+  }
   if (deploy::is_bundle(file)) {
     if (!comment.empty()) {
       return Failure{kUsage, fmt::format("{} is a bundle, whose comment is that of its indurop pack; --comment is for "
@@ -100,7 +103,7 @@ Result<PlantSource, Failure> read_plant_source(Context& context, const std::stri
   PlantSource source;
   source.temporary = std::make_unique<base::TemporaryFolder>();
   if (source.temporary->path().empty()) {
-    return Failure{kFailed, base::kNoTemporaryFolder};
+    return Failure{kFailed, source.temporary->problem()};
   }
   auto project = find_project(checked.plant, {also.begin(), also.end()});
   if (!project) {

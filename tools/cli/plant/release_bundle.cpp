@@ -48,9 +48,12 @@ Result<void, base::Problem> write_release(Context& context, const deploy::Packed
 }
 
 Result<ReleaseBundle, Failure> read_release(const std::string& file, const std::filesystem::path& keys) {
+  if (const auto opened = base::open_file(file); !opened) {
+    return Failure{kFailed, base::cannot_read(file, opened.error())};
+  }
   ReleaseBundle bundle{{}, std::make_unique<base::TemporaryFolder>()};
   if (bundle.temporary->path().empty()) {
-    return Failure{kFailed, base::kNoTemporaryFolder};
+    return Failure{kFailed, bundle.temporary->problem()};
   }
   auto opened = deploy::open_bundle(file, bundle.temporary->path());
   if (!opened) {

@@ -58,7 +58,7 @@ Result<deploy::OpenedProject, Failure> fetch_project(DiscoveredBoards& boards, s
   }
   const base::TemporaryFolder temporary;
   if (temporary.path().empty()) {
-    return Failure{kFailed, base::kNoTemporaryFolder};
+    return Failure{kFailed, temporary.problem()};
   }
   const std::filesystem::path archive = temporary.path() / "sources";
   const BoardFile wanted{printable(running.source.board), running.source.agent, found->digest, found->size};

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+
+#include "core/base/read_file.h"
 #include "tools/cli/verbs/verbs.h"
 #include "tools/client/text/units.h"
 
@@ -16,6 +19,11 @@ struct AuditOptions {
 };
 
 int show_audit(Context& context, const AuditOptions& options) {
+  if (const auto opened = base::open_file(options.file); !opened && opened.error().sys_errno != ENOENT) {
+    context.out.error(base::cannot_read(options.file, opened.error()) +
+                      "; run this as the user of the agent or server");
+    return kFailed;
+  }
   Table table({{"WHEN", "wall_ns"},
                {"WHO", "who"},
                {"FROM", "from"},

@@ -80,7 +80,7 @@ Result<std::size_t, Failure> compare_sources(DiscoveredBoards& boards, std::uint
   }
   const base::TemporaryFolder folder;
   if (folder.path().empty()) {
-    return Failure{kFailed, base::kNoTemporaryFolder};
+    return Failure{kFailed, folder.problem()};
   }
   const auto fetched = fetch_project(boards, self, running, folder.path());
   if (!fetched) {

@@ -59,7 +59,7 @@ int package(Context& context, const PackageOptions& options) {
   }
   const base::TemporaryFolder temporary;
   if (temporary.path().empty()) {
-    context.out.error(base::kNoTemporaryFolder);
+    context.out.error(temporary.problem());
     return kFailed;
   }
   const PlantPackage about{source->plant.name, source->packed.id, source->packed.package.comment, options.version,

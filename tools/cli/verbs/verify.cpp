@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <system_error>
 
 #include "core/rt/clock.h"
 #include "deploy/disk/state_check.h"
@@ -28,9 +29,14 @@ struct VerifyOptions {
 // The findings on each board, as reported by deploy/agent/board_verify.h and state_check.h.
 using Findings = std::map<std::string, JsonValue>;
 
-bool is_state_folder(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  return std::filesystem::is_directory(folder / "deployments", ignored);
+bool is_state_folder(const std::filesystem::path& folder, std::error_code& error) {
+  return std::filesystem::is_directory(folder / "deployments", error);
+}
+
+// A folder of another user could be that of a board.
+Failure not_readable(const std::filesystem::path& folder, std::error_code error) {
+  return {kFailed, fmt::format("cannot read {}: {}; run this as the user of the agents, or let them verify: --plant",
+                               folder.string(), error.message())};
 }
 
 Result<Findings, Failure> verify_local() {
@@ -38,7 +44,11 @@ Result<Findings, Failure> verify_local() {
   const std::filesystem::path root = vars::state_directory("x").parent_path();
   std::error_code error;
   for (std::filesystem::directory_iterator at(root, error), end; at != end; at.increment(error)) {
-    if (!is_state_folder(at->path())) {
+    std::error_code hidden;
+    if (!is_state_folder(at->path(), hidden)) {
+      if (hidden == std::errc::permission_denied) {
+        return not_readable(at->path(), hidden);
+      }
       continue;
     }
     deploy::StateCheck check(at->path());
@@ -48,6 +58,9 @@ Result<Findings, Failure> verify_local() {
       }
     }
     found[at->path().filename()] = json_of(check.report());
+  }
+  if (error == std::errc::permission_denied) {
+    return not_readable(root, error);
   }
   if (found.empty()) {
     return Failure{kUnreachable, fmt::format("no board of this machine has anything in {}; boards of the network are "
@@ -174,8 +187,8 @@ const Verb kVerifyVerb{
     "files and the copies that run. Without --plant or --board it reads the boards of this machine and changes\n"
     "nothing. With them, each agent also deletes damaged files of a deployment and restores them from other\n"
     "copies on the board.\n"
-    "Exit codes: 0 everything is as it was deployed, 4 something is damaged, 6 a board is missing or does not\n"
-    "answer.\n"
+    "Exit codes: 0 everything is as it was deployed, 1 the files of a board cannot be read, 4 something is damaged,\n"
+    "6 a board is missing or does not answer.\n"
     "Examples:\n"
     "  indurop verify\n"
     "  indurop verify --plant\n"
