@@ -238,7 +238,7 @@ Finding state_folder(const fs::path& root, bool contained) {
         fmt::format("deployments and retained variables would be lost with it; run the container with -v indurop:{}",
                     folder.string())};
   }
-  if (access(there.c_str(), W_OK | X_OK) == 0) {
+  if (fs::is_directory(there, error) && access(there.c_str(), W_OK | X_OK) == 0) {
     return {"state-folder", Grade::Ok, folder.string(), ""};
   }
   return {"state-folder", Grade::Warn, fmt::format("{} cannot be written", folder.string()),

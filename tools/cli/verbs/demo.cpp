@@ -47,6 +47,9 @@ struct DemoOptions {
 std::string copy_files(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::create_directories(to, error);
+  if (error) {
+    return fmt::format("cannot make {}: {}; name another one: indurop demo --folder DIR", to.string(), error.message());
+  }
   for (fs::directory_iterator file(from, error), end; !error && file != end; file.increment(error)) {
     std::error_code failed;
     if (fs::is_regular_file(*file, failed)) {

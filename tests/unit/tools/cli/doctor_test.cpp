@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -61,6 +62,15 @@ TEST_F(Doctor, Virtual_machine_is_recognised) {
   EXPECT_EQ(finding("virtual-machine").grade, Grade::Warn);
   put("proc/cpuinfo", "processor : 0\nflags : fpu tsc lm\n");
   EXPECT_EQ(finding("virtual-machine").grade, Grade::Ok);
+}
+
+TEST_F(Doctor, A_file_is_no_folder_for_the_state) {
+  ::setenv("INDUROP_STATE_DIR", (root_ / "state").c_str(), 1);
+  EXPECT_EQ(finding("state-folder").grade, Grade::Ok) << "it can be made";
+  put("state", "");
+  fs::permissions(root_ / "state", fs::perms::owner_all);
+  EXPECT_EQ(finding("state-folder").grade, Grade::Warn);
+  ::unsetenv("INDUROP_STATE_DIR");
 }
 
 TEST_F(Doctor, Advice_in_a_container_names_its_options) {
