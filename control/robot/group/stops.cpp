@@ -215,6 +215,10 @@ ErrorCode Stops::disable() noexcept {
   }
   if (states.is(GroupState::Standby)) {
     robot_.stand_here();  // it may have come to Standby in the last period, and the follower is elsewhere
+    if (robot_.axes.any_busy()) {
+      halt_axes();
+      states.leave_path();
+    }
     states.stop_to_disabled();
     return ErrorCode::Ok;
   }

@@ -3,6 +3,8 @@
 // Control part 1, figure of the states: notes 1 to 5).
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "command_cell.h"
@@ -101,6 +103,25 @@ TEST_F(Axis_power, Stays_when_the_group_gives_up_its_own) {
   ASSERT_TRUE(cell.serve(Service::GroupDisable));
   ASSERT_TRUE(cell.until([&] { return axis(1) == AxisState::Disabled; }));
   EXPECT_TRUE(stays(AxisState::Standstill));
+}
+
+// In Standby, axes may move on their own: they come to rest before the group gives up its power, too.
+TEST_F(Axis_power, Is_given_up_by_the_group_after_single_axes_have_come_to_rest) {
+  ASSERT_TRUE(cell.serve(Service::GroupEnable));
+  const Given move = give(1, AxisService::MoveVelocity, 0, 40);
+  ASSERT_TRUE(cell.until([&] { return reached(move); }));
+  double before = cell.out.speed[0];
+  double steepest = 0;
+  cell.ask(Service::GroupDisable);
+  ASSERT_TRUE(cell.until([&] {
+    steepest = std::max(steepest, std::abs(cell.out.speed[0] - before));
+    before = cell.out.speed[0];
+    return cell.out.state == GroupState::Disabled || cell.out.state == GroupState::ErrorStop;
+  }));
+  EXPECT_EQ(cell.out.state, GroupState::Disabled) << to_string(cell.out.error);
+  EXPECT_EQ(state(move), CommandState::Aborted);
+  EXPECT_LT(steepest, 20) << "deg/s from one period to the next";
+  ASSERT_TRUE(cell.serve(Service::GroupEnable)) << "without a reset";
 }
 
 TEST_F(Axis_power, That_falls_while_the_group_moves_stops_the_group) {
