@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace indurop::ros {
@@ -52,12 +54,27 @@ std::vector<double> tolerances_of(const std::vector<RosTolerance>& given, const 
   return tolerances;
 }
 
+// Nothing would ever be beyond such a tolerance, or within it.
+std::optional<GoalProblem> no_number(const std::vector<RosTolerance>& given) {
+  const auto found =
+      std::find_if(given.begin(), given.end(), [](const RosTolerance& one) { return std::isnan(one.position); });
+  if (found == given.end()) {
+    return std::nullopt;
+  }
+  return GoalProblem{GoalCode::InvalidGoal, fmt::format("the tolerance of joint '{}' is not a number", found->name)};
+}
+
 }  // namespace
 
 Result<AxesGoal, GoalProblem> axes_goal(const RosGoal& goal, const std::vector<Joint>& joints) {
   const auto places = places_of(goal, joints);
   if (!places) {
     return places.error();
+  }
+  for (const auto* tolerances : {&goal.path, &goal.goal}) {
+    if (auto problem = no_number(*tolerances)) {
+      return std::move(*problem);
+    }
   }
   AxesGoal axes;
   for (const RosPoint& point : goal.points) {

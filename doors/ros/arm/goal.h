@@ -24,7 +24,8 @@ struct AxesGoal {
   GoalTolerances tolerances;
 };
 
-// Joints may be in any order, and all are needed. Errors: names and sizes that do not fit.
+// Joints may be in any order, and all are needed. Errors: names and sizes that do not fit, and
+// tolerances that are not a number.
 Result<AxesGoal, GoalProblem> axes_goal(const RosGoal& goal, const std::vector<Joint>& joints);
 
 // Where the arm has to go for one point of a stream: as far ahead as its velocities bring it in `ahead` seconds.

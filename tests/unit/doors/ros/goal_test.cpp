@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
 namespace indurop::ros {
 namespace {
 
@@ -41,6 +43,16 @@ TEST(RosGoal, Names_and_sizes_have_to_fit) {
   RosGoal speeds = goal_with({"turn", "rail"}, {1, 2});
   speeds.points[0].velocities = {1};
   EXPECT_EQ(code(speeds), GoalCode::InvalidGoal);
+}
+
+TEST(RosGoal, A_tolerance_that_is_not_a_number_is_rejected) {
+  for (const auto tolerances : {&RosGoal::path, &RosGoal::goal}) {
+    RosGoal goal = goal_with({"turn", "rail"}, {1, 2});
+    (goal.*tolerances) = {{"rail", std::numeric_limits<double>::quiet_NaN()}};
+    const auto axes = axes_goal(goal, kJoints);
+    ASSERT_FALSE(axes);
+    EXPECT_EQ(axes.error().text, "the tolerance of joint 'rail' is not a number");
+  }
 }
 
 TEST(RosGoal, A_set_point_is_as_far_ahead_as_its_velocities_bring_the_arm) {
