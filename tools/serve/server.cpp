@@ -17,11 +17,13 @@ namespace indurop::serve {
 namespace {
 
 ServerFacts facts_of(const tools::ServeOptions& options, const std::string& version, const AlarmDesk& alarms,
-                     std::function<std::vector<ClientFigures>()> clients) {
+                     std::function<std::vector<ClientFigures>()> clients,
+                     std::function<std::optional<Reply>(Request&)> refuse) {
   ServerFacts facts;
   facts.alarms = [&alarms](const std::string& board) { return alarms.counts(board); };
   facts.version = version;
   facts.clients = std::move(clients);
+  facts.refuse = std::move(refuse);
   facts.most_clients = options.clients;
   facts.started_wall_ns = rt::wall_ns();
   facts.started_ns = rt::now_ns();
@@ -58,7 +60,9 @@ Server::Server(tools::ServeOptions options, Admission admission, const std::stri
       leases_(audit_, options_.link),
       jogs_(audit_),
       api_(gate_, users_, audit_, leases_, jogs_,
-           facts_of(options_, version, alarms_, [this] { return hub_.clients(); })),
+           facts_of(
+               options_, version, alarms_, [this] { return hub_.clients(); },
+               [this](Request& request) { return refuse_now(request); })),
       page_(options_.web),
       boards_(options_.node, &remote_boards_),
       hub_(boards_, version, {options_.foxglove, options_.foxglove_hz},
@@ -80,6 +84,11 @@ Client Server::identify(const std::string& certificate) {
     return client;
   }
   return users_.client_certified(std::move(client));
+}
+
+std::optional<Reply> Server::refuse_now(Request& request) {
+  request.certificate = request.certificate_pem.empty() ? Client{} : identify(request.certificate_pem);
+  return refuse(request);
 }
 
 std::optional<Reply> Server::refuse(Request& request) {

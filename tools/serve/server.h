@@ -44,6 +44,8 @@ class Server final : public House {
   std::unique_ptr<Visitor> receive(const Request& request, Line& line) override;
 
  private:
+  // The same for a request that has waited; may be called by any thread.
+  std::optional<Reply> refuse_now(Request& request);
   // Readers of boards of other hosts; the door's thread is 0.
   static constexpr std::size_t kPlantReader = 1;
   static constexpr std::size_t kFilesReader = 2;

@@ -3,6 +3,7 @@
 """Shared functions called over HTTP: which, with what arguments, by whom, and what is written in the audit log.
 functions_test.py PROGRAMS FAKE_NODE [TEST...]"""
 
+import json
 import os
 import pathlib
 import random
@@ -139,6 +140,23 @@ def test_a_call_needs_the_role(setting):
     assert indurop(setting, "get", "calc::calls").stdout.strip() == "1"
 
 
+def test_a_call_that_waits_is_not_executed_when_its_client_has_lost_the_right(setting):
+    start(setting)
+    users = Users(setting, anna=user("operate"), leo=user("operate"))
+    server = setting.start_server("--write", "--users", users.file, "--audit", setting.folder / "audit.jsonl", *SHOWN)
+    anna, leo = sign_in(server, "anna"), sign_in(server, "leo")
+    wait_for(lambda: is_served_for(server, setting, leo), "the functions to be served")
+    waiting = [begin_call(server, setting, "nap", {"ms": 100}, leo) for _ in range(8)]  # a tenth of a second each, one after the other
+    last = begin_call(server, setting, "add", {"a": 1, "b": 2}, anna)
+    wait_for(lambda: any(one["action"] == "call" for one in entries(setting)), "the first one to begin")
+    users.write(anna=user("look"), leo=user("operate"))
+    assert last.recv(4096).startswith((b"HTTP/1.1 401 ", b"HTTP/1.1 403 ")), "it has lost the right"
+    for connection in [*waiting, last]:
+        connection.close()
+    assert indurop(setting, "get", "calc::calls").stdout.strip() == "0"
+    assert {one["outcome"] for one in entries(setting) if one["who"] == "anna" and one["action"] == "call"}.isdisjoint({"begun", "done"})
+
+
 def is_served_for(server, setting, token):
     listed = server.get(f"{API}/boards/{setting.node}/functions", Authorization=f"Bearer {token}").json()["functions"]
     return all(one["served"] for one in listed if one["name"] != "calc::nowhere")
@@ -159,8 +177,12 @@ def test_a_killed_server_takes_no_slot_with_it(setting):
 
 def begin_nap(server, setting):
     """Sends a call, and does not wait for its answer."""
-    body = '{"arguments": {"ms": 50}}'
-    text = (f"POST {API}/boards/{setting.node}/functions/calc::nap/call HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer {TOKEN}\r\n"
+    return begin_call(server, setting, "nap", {"ms": 50}, TOKEN)
+
+
+def begin_call(server, setting, function, arguments, token):
+    body = json.dumps({"arguments": arguments})
+    text = (f"POST {API}/boards/{setting.node}/functions/calc::{function}/call HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer {token}\r\n"
             f"Content-Type: application/json\r\nContent-Length: {len(body)}\r\n\r\n{body}")
     connection = socket.create_connection(("127.0.0.1", server.port), timeout=harness.DEADLINE_S)
     connection.sendall(text.encode())

@@ -98,6 +98,10 @@ Reply users(Api& api, const Call& /*call*/) {
 
 Reply end_sessions(Api& api, const Call& call) {
   const std::string& user = call.part.find("user")->second;
+  Request request = *call.request;  // its client may have lost the right while it waited
+  if (auto refused = api.facts().refuse(request)) {
+    return std::move(*refused);
+  }
   if (!api.users().client_named(user)) {
     return refusal(status::kNotFound, fmt::format("there is no user '{}'", user));
   }

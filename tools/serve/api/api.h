@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,8 @@ struct ServerFacts {
   std::int64_t started_ns = 0;
   std::function<std::vector<ClientFigures>()> clients;
   std::function<alarms::AlarmCounts(const std::string& board)> alarms;
+  // Returns the refusal of a request by the rights of now, and sets its client. May be called by any thread.
+  std::function<std::optional<Reply>(Request& request)> refuse;
 };
 
 class Board;

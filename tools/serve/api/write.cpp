@@ -30,9 +30,24 @@ std::optional<std::string> beyond_rights(const Client& client, const Affected& a
   return std::nullopt;
 }
 
+// Returns why the request is refused by the rights of now; nothing if it is not. Sets its client.
+std::optional<Refused> refused_now(const Api& api, Request& request) {
+  request.background = true;  // its arrival was the use of the session
+  const auto reply = api.facts().refuse(request);
+  if (!reply) {
+    return std::nullopt;
+  }
+  std::string why;
+  if (const auto body = base::Json::parse(reply->body)) {
+    base::read(*body, "message", why);
+  }
+  return Refused{reply->status, {std::move(why)}};
+}
+
 }  // namespace
 
-Write::Write(Api& api, const Call& call, std::string action) : api_(&api), client_(&call.request->client) {
+Write::Write(Api& api, const Call& call, std::string action) : api_(&api), request_(*call.request) {
+  request_.body.clear();
   entry_.who = call.who;
   entry_.from = call.request->from;
   const auto board = call.part.find("board");
@@ -65,7 +80,10 @@ void Write::note_failure(const std::string& why) {
 }
 
 std::optional<Refused> Write::begin(const Affected& affected) {
-  if (auto beyond = beyond_rights(*client_, affected)) {
+  if (auto refused = refused_now(*api_, request_)) {
+    return refused;
+  }
+  if (auto beyond = beyond_rights(request_.client, affected)) {
     return Refused{status::kForbidden, {std::move(*beyond)}};
   }
   entry_.outcome = "begun";

@@ -27,7 +27,8 @@ class Write final : public ChangeNote {
   Reply failed(const Refused& refused);
   // Fails because store/operate/ refused it.
   Reply failed(const operate::Refusal& refusal);
-  // A write that cannot be logged is not done, except for a stop.
+  // A write is not done if its client has lost the right while the request waited, or if it cannot be logged, except for
+  // a stop.
   std::optional<Refused> begin(const Affected& affected) override;
   // `body` says of a stop that it could not be logged.
   Reply done(base::Json body);
@@ -36,7 +37,7 @@ class Write final : public ChangeNote {
   void note_failure(const std::string& why);
 
   Api* api_;
-  const Client* client_;
+  Request request_;  // without its body
   AuditEntry entry_;
   std::string unnoted_;  // why its begin could not be logged
 };

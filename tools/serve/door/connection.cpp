@@ -107,6 +107,7 @@ void Connection::read_certificate() {
     certificate_ = wire_.certificate();
   }
   // Checked for each request: it may have been revoked meanwhile.
+  request_.certificate_pem = certificate_;
   request_.certificate = certificate_.empty() ? Client{} : common_.house->identify(certificate_);
 }
 
@@ -158,6 +159,11 @@ bool Connection::body_came(std::int64_t now_ns) {
   }
   request_.body = input_.substr(0, body_length_);
   input_.erase(0, body_length_);
+  // The body may arrive seconds after the headers: the client may have lost a right meanwhile.
+  read_certificate();
+  if (auto refused = common_.house->refuse(request_)) {
+    return refuse(std::move(*refused), now_ns);
+  }
   return answer(now_ns);
 }
 

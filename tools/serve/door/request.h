@@ -45,13 +45,15 @@ struct Request {
   std::string subprotocols;   // Sec-WebSocket-Protocol
   std::string subprotocol;    // the one in use; empty: HTTP
   std::string content_type;
-  Client certificate;  // the client according to its certificate
-  Client client;       // the client according to certificate and token
-  std::string from;    // address
+  std::string certificate_pem;  // that the client presented; empty: none
+  Client certificate;           // the client according to it
+  Client client;                // the client according to certificate and token
+  std::string from;             // address
   std::string body;
   bool has_body = false;
-  bool stream = false;  // requests a WebSocket
-  bool close = false;   // requests to close the connection after the reply
+  bool stream = false;      // requests a WebSocket
+  bool background = false;  // no user caused it, so it does not count as use of a session
+  bool close = false;       // requests to close the connection after the reply
 };
 
 struct Reply {
