@@ -19,6 +19,7 @@ import time
 
 import harness
 from harness import wait_for
+from websocket import WebSocket
 
 API = "/api/v1"
 PASSWORD = "correct horse"
@@ -232,6 +233,57 @@ def test_a_change_of_the_list_counts_at_once(setting):
     users.write(bob=user("look"))
     answer = server.post(f"{board}/set", {"values": {"gain": 1}}, token)
     assert answer.status == 401 and "session has ended" in answer.json()["message"], answer.body
+
+
+def test_a_right_that_is_lost_while_the_body_arrives_counts(setting):
+    """The headers of a request are checked first; its body may take seconds."""
+    setting.start_node("robot")
+    hashed, other = hash_of(PASSWORD), hash_of("another one")
+    board = f"{API}/boards/{setting.node}"
+    requests = [("set", {"values": {"gain": 7.5}}), ("force", {"values": {"gain": 7.5}}), ("release", {"all": True}), ("lock", {"lock": "all"}),
+                ("jog", {"robot": "arm", "frame": "base", "speed": [0, 0, 25]}), ("alarms/ack", {"all": True}),
+                ("recipes/seven/save", {"comment": "a"})]
+    changes = [("its role", f'role="look" password="{hashed}"', 403), ("its variables", f'role="program" password="{hashed}" variables="x::*"', 403),
+               ("its boards", f'role="program" password="{hashed}" boards="x"', 403), ("its password", f'role="program" password="{other}"', 401),
+               ("all", "", 401)]
+    users = Users(setting, anna=f'role="program" password="{hashed}"')
+    server = serve(setting, users)
+    for path, body in requests:
+        for what, after, status in changes if path == "set" else changes[:3]:  # replies with 401 are delayed
+            users.write(anna=f'role="program" password="{hashed}"')
+            token = sign_in(server, "anna")
+            sent = json.dumps(body).encode()
+            head = (f"POST {board}/{path} HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer {token}\r\nConnection: close\r\n"
+                    f"Content-Type: application/json\r\nContent-Length: {len(sent)}\r\nExpect: 100-continue\r\n\r\n")
+            with socket.create_connection(("127.0.0.1", server.port), timeout=harness.DEADLINE_S) as connection:
+                connection.sendall(head.encode())
+                assert connection.recv(4096).startswith(b"HTTP/1.1 100 "), "the headers are accepted"
+                users.write(**({"anna": after} if after else {"bob": user("look")}))
+                connection.sendall(sent)
+                answer = connection.recv(4096)
+            assert answer.startswith(f"HTTP/1.1 {status} ".encode()), (path, what, answer)
+    assert not [one for one in entries(setting) if one["outcome"] in ("begun", "done") and one["action"] != "sign in"], "nothing was done"
+
+
+def test_neither_a_stream_nor_what_a_page_requests_on_its_own_is_use_of_a_session(setting):
+    setting.start_node()
+    server = serve(setting, Users(setting, anna=user("operate"), ada=user("administer")))
+    anna, ada = sign_in(server, "anna"), sign_in(server, "ada")
+
+    def idle_s():
+        listed = server.get(f"{API}/users", Authorization=f"Bearer {ada}").json()["users"]
+        return next(one["sessions"][0]["idle_ns"] for one in listed if one["user"] == "anna") / 1e9
+
+    begin = time.monotonic()
+    stream = WebSocket(server.port, protocols=("indurop.v1", f"indurop.token.{anna}"))
+    stream.say(type="subscribe", id=1, names=["tick"], rate_hz=1)
+    while time.monotonic() - begin < 16:  # it checks a stream each 15 s
+        stream.heard("values")
+        assert server.get(f"{API}/status", Authorization=f"Bearer {anna}", Indurop_Background="true").status == 200
+    stream.close()
+    assert idle_s() >= 16
+    assert server.get(f"{API}/status", Authorization=f"Bearer {anna}").status == 200
+    assert idle_s() < 8, "a request of its user is"
 
 
 def test_sessions_are_ended_by_who_has_them_and_by_administrators(setting):

@@ -84,12 +84,12 @@ std::string host_name(std::string_view host) {
 
 Client AccessGate::client_of(const Request& request) const {
   const std::string_view sent = sent_token(request);
-  return sent.empty() ? request.certificate : client_of_token(sent);
+  return sent.empty() ? request.certificate : client_of_token(sent, !request.background);
 }
 
-Client AccessGate::client_of_token(std::string_view sent) const {
+Client AccessGate::client_of_token(std::string_view sent, bool use) const {
   if (accounts_ != nullptr) {
-    if (auto client = accounts_->client_of_token(sent)) {
+    if (auto client = accounts_->client_of_token(sent, use)) {
       return std::move(*client);
     }
   }

@@ -18,15 +18,15 @@ struct Token {
   Role role = Role::Program;
 };
 
-// Clients that sign in, and tokens that are kept as hashes. Called by the door's thread.
+// Clients that sign in, and tokens that are kept as hashes. Called by any thread.
 class Accounts {
  public:
   Accounts() = default;
   Accounts(const Accounts&) = delete;
   Accounts& operator=(const Accounts&) = delete;
   virtual ~Accounts() = default;
-  // Returns the client that has this token; nothing if none has.
-  virtual std::optional<Client> client_of_token(std::string_view token) = 0;
+  // Returns the client that has this token; nothing if none has. `use`: counts as use of its session.
+  virtual std::optional<Client> client_of_token(std::string_view token, bool use) = 0;
 };
 
 struct AccessGateSettings {
@@ -58,7 +58,7 @@ class AccessGate {
   [[nodiscard]] bool host_known(std::string_view host) const;
   [[nodiscard]] bool same_origin(const Request& request) const;
   [[nodiscard]] std::optional<Reply> refuse_client(const Client& client, const Needed& needed) const;
-  [[nodiscard]] Client client_of_token(std::string_view sent) const;
+  [[nodiscard]] Client client_of_token(std::string_view sent, bool use) const;
 
   AccessGateSettings settings_;
   Accounts* accounts_;

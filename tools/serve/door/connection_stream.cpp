@@ -32,6 +32,7 @@ bool Connection::upgrade(const Head& head, Request request, std::int64_t now_ns)
     return bad("a WebSocket needs Sec-WebSocket-Version: 13 and a key of 16 bytes");
   }
   request.stream = true;
+  request.background = true;  // a page opens its stream again on its own, and this server checks it
   request.subprotocol = common_.house->choose_subprotocol(request);
   request_ = std::move(request);
   if (auto refused = common_.house->refuse(request_)) {

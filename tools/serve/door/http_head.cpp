@@ -257,6 +257,7 @@ Request request_of(const Head& head) {
   request.subprotocols = head.field("sec-websocket-protocol");
   request.content_type = head.field("content-type");
   request.close = !head.keeps_open;
+  request.background = head.has_word("indurop-background", "true");
   return request;
 }
 

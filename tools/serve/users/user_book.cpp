@@ -7,6 +7,7 @@
 
 #include "config/users_reader.h"
 #include "core/keys/password.h"
+#include "core/rt/clock.h"
 #include "tools/client/process/random_word.h"
 
 namespace indurop::serve {
@@ -53,7 +54,9 @@ void UserBook::refresh() {
   if (version_ == version && problem_.empty()) {
     return;
   }
-  version_ = version;
+  // The clock of file systems is coarse: the next change of a file that has just changed may leave its time as it is.
+  const bool settled = version.changed_ns + kSecondNs < rt::wall_ns();
+  version_ = settled ? std::optional(version) : std::nullopt;
   config::ReadUsers read = config::read_users(file_);
   problem_ = read.ok() ? std::string() : base::to_text(read.diagnostics);
   users_ = read.ok() ? std::move(read.users) : config::PlantUsers{};
@@ -79,7 +82,7 @@ void UserBook::end_old(std::int64_t now_ns) {
 }
 
 // A token is looked for by its hash: the time of a comparison of hashes reveals nothing about tokens.
-std::optional<Client> UserBook::client_of_token(std::string_view token) {
+std::optional<Client> UserBook::client_of_token(std::string_view token, bool use) {
   if (!used()) {
     return std::nullopt;
   }
@@ -89,7 +92,7 @@ std::optional<Client> UserBook::client_of_token(std::string_view token) {
   const std::int64_t now = now_ns_();
   end_old(now);
   if (const auto session = sessions_.find(hash); session != sessions_.end()) {
-    session->second.figures.used_ns = now;
+    session->second.figures.used_ns = use ? now : session->second.figures.used_ns;
     return client_of(*users_.find(session->second.figures.user));
   }
   const auto user = std::find_if(users_.users.begin(), users_.users.end(),

@@ -42,7 +42,7 @@ class UserBook final : public Accounts {
   // Returns why the file cannot be used, with places; empty: it can.
   std::string problem();
 
-  std::optional<Client> client_of_token(std::string_view token) override;
+  std::optional<Client> client_of_token(std::string_view token, bool use = true) override;
   // Returns what the list says of the user with this name; nothing: the list does not name it.
   std::optional<Client> client_named(std::string_view name);
   // Returns the client that a certificate names, with the role and limits of the list if the list names it. While the
@@ -65,7 +65,7 @@ class UserBook final : public Accounts {
     SessionFigures figures;
     std::string password;  // hash: a session ends when the password is changed
   };
-  // What tells that the file has changed. All 0: it is not there.
+  // What tells that the file has changed, once it is settled. All 0: it is not there.
   struct Version {
     std::int64_t changed_ns = 0;
     std::uint64_t number = 0;  // inode
@@ -80,7 +80,7 @@ class UserBook final : public Accounts {
   std::filesystem::path file_;
   std::int64_t (*now_ns_)() = nullptr;
   std::mutex lock_;
-  std::optional<Version> version_;  // nothing: it was not read yet
+  std::optional<Version> version_;  // nothing: it is read for each request
   std::string problem_;
   config::PlantUsers users_;
   std::map<std::string, Session, std::less<>> sessions_;  // by hash of the token

@@ -8,8 +8,10 @@
 #include <sys/stat.h>
 
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 
 #include "config/users_reader.h"
 #include "core/keys/password.h"
@@ -83,12 +85,11 @@ TEST_F(UserBookTest, Notices_a_list_whose_times_and_size_are_those_of_the_one_be
   const std::string lower =
       config::users_text({{"anna", config::UserRole::Look, {}, {}, {}, keys::hash_of_token("the-token")}});
   std::fstream(file(), std::ios::in | std::ios::out) << lower;
+  // The clock of the file system is coarse: the time of the last change may be the same, too.
   const std::array<timespec, 2> times{before.st_atim, before.st_mtim};
-  struct stat after = before;
-  while (after.st_ctim.tv_sec == before.st_ctim.tv_sec && after.st_ctim.tv_nsec == before.st_ctim.tv_nsec) {
-    ASSERT_EQ(::utimensat(AT_FDCWD, file().c_str(), times.data(), 0), 0);  // the clock of the file system is coarse
-    ASSERT_EQ(::stat(file().c_str(), &after), 0);
-  }
+  struct stat after {};
+  ASSERT_EQ(::utimensat(AT_FDCWD, file().c_str(), times.data(), 0), 0);
+  ASSERT_EQ(::stat(file().c_str(), &after), 0);
   ASSERT_EQ(after.st_size, before.st_size);
   ASSERT_EQ(after.st_ino, before.st_ino);
   EXPECT_EQ(sut.client_of_token("the-token")->role, Role::Look);
@@ -139,6 +140,30 @@ TEST_F(UserBookTest, A_session_ends_by_sign_out_idling_and_age) {
   const std::string third = sign_in(sut);
   clock_ns += UserBook::kIdleNs + 1;
   EXPECT_FALSE(sut.client_of_token(third));
+}
+
+TEST_F(UserBookTest, Notices_changes_that_follow_each_other_faster_than_the_clock_of_the_file_system) {
+  constexpr int kChanges = 300;
+  UserBook sut(file(), &now_ns);
+  for (int i = 0; i < kChanges; ++i) {
+    const auto role = i % 2 == 0 ? config::UserRole::Tune : config::UserRole::Look;
+    const std::string text = config::users_text({{"anna", role, {}, {}, {}, keys::hash_of_token("the-token")}});
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> same(std::fopen(file().c_str(), i == 0 ? "w" : "r+"),
+                                                               &std::fclose);
+    ASSERT_EQ(std::fwrite(text.data(), 1, text.size(), same.get()), text.size());
+    ASSERT_EQ(std::fflush(same.get()), 0);
+    ASSERT_EQ(sut.client_of_token("the-token")->role, i % 2 == 0 ? Role::Tune : Role::Look) << i;
+  }
+}
+
+TEST_F(UserBookTest, What_no_user_caused_does_not_prolong_a_session) {
+  write({anna_});
+  UserBook sut(file(), &now_ns);
+  const std::string token = sign_in(sut);
+  clock_ns += UserBook::kIdleNs;
+  EXPECT_TRUE(sut.client_of_token(token, false));
+  clock_ns += 1;
+  EXPECT_FALSE(sut.client_of_token(token, false));
 }
 
 TEST_F(UserBookTest, What_the_file_says_counts_from_the_next_request_on) {

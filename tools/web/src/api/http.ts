@@ -5,6 +5,17 @@ const TOKEN_KEY = "indurop.token";
 const REJECTED_KEY = "indurop.rejected";  // the server rejected the token of this tab
 const UNAUTHORIZED = 401;
 const TIMEOUT_MS = 8000;
+const IDLE_MS = 60_000;  // a user who has touched nothing for this time has not caused what the page requests
+
+let touched_ms = Date.now();
+for (const what of ["pointerdown", "pointermove", "keydown", "wheel"]) {
+  window.addEventListener(what, () => { touched_ms = Date.now(); }, { capture: true, passive: true });
+}
+
+// The page requests much on its own. Without a user, this must not keep his session alive.
+function add_background(headers: Record<string, string>): void {
+  if (Date.now() - touched_ms > IDLE_MS) headers["Indurop-Background"] = "true";
+}
 
 export class RequestError extends Error {
   constructor(readonly status: number, message: string, readonly details: string[] = []) {
@@ -53,9 +64,10 @@ async function request<T>(path: string, more: RequestInit, timeout_ms = TIMEOUT_
   const sent = token();
   if (sent) headers.Authorization = `Bearer ${sent}`;
   if (more.body) headers["Content-Type"] = "application/json";
+  add_background(headers);
   let answer: Response;
   try {
-    answer = await fetch(`/api/v1/${path}`, { ...more, headers, cache: "no-store", signal: AbortSignal.timeout(timeout_ms) });
+    answer = await fetch(`/api/v1/${path}`, { signal: AbortSignal.timeout(timeout_ms), ...more, headers, cache: "no-store" });
   } catch {
     throw new RequestError(0, "The server does not answer.");
   }
@@ -77,6 +89,11 @@ export function get<T>(path: string, timeout_ms?: number): Promise<T> {
 
 export function post<T>(path: string, body?: unknown, timeout_ms?: number): Promise<T> {
   return request<T>(path, { method: "POST", body: body === undefined ? undefined : JSON.stringify(body) }, timeout_ms);
+}
+
+// Until `abandoned`, however long it takes.
+export function post_until<T>(path: string, abandoned: AbortSignal): Promise<T> {
+  return request<T>(path, { method: "POST", signal: abandoned });
 }
 
 // For a page that is being closed: it cannot receive the answer.
