@@ -99,11 +99,15 @@ class Desk {
     count_ = all_.size();
   }
 
-  template <class Act>
-  void for_each(Act act) {
+  // Ends those for which `check` returns an outcome.
+  template <class Check>
+  void check_all(Check check) {
     const std::lock_guard guard(mutex_);
-    for (auto& [name, held] : all_) {
-      act(held);
+    for (auto one = all_.begin(); one != all_.end();) {
+      const auto held = one++;
+      if (const char* const lost = check(held->second); lost != nullptr) {
+        remove(held, lost);
+      }
     }
   }
 

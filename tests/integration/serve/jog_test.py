@@ -4,9 +4,11 @@
 [TEST...]"""
 
 import signal
+import threading
 
 import harness
 from harness import TOKEN, wait_for
+from users_test import entries, hash_of, PASSWORD, sign_in, Users
 
 API = "/api/v1"
 REQUEST = {"robot": "arm", "frame": "base", "speed": [0, 0, 25]}
@@ -130,6 +132,54 @@ def test_one_hand_at_a_time_and_only_its_own(setting):
     second, other = wait_for(seen, "one look while the hand is there")
     assert second.status == 409 and "ana is moving it" in second.json()["message"], second.body
     assert other.status == 404
+
+
+def test_a_jog_ends_with_the_right_to_its_switch(setting):
+    setting.start_node("robot")
+    hashed = hash_of(PASSWORD)
+    users = Users(setting, anna=f'role="operate" password="{hashed}" variables="arm::*"')
+    server = setting.start_server("--write", "--users", users.file, "--audit", setting.folder / "audit.jsonl")
+    base, anna = f"{API}/boards/{setting.node}", sign_in(server, "anna")
+    jog = lambda: server.post(base + "/jog", REQUEST, anna).json().get("jog")
+    keep = lambda hand: server.post(f"{base}/jog/{hand}/keep", None, anna).status
+    hand = wait_for(lambda: (one := jog()) and keep(one) == 200 and one, "a hand that is kept")
+    users.write(anna=f'role="operate" password="{hashed}" variables="leg::*"')
+    assert keep(hand) == 404, "she may not change this variable any more"
+    assert server.get(base + "/variables/arm::ROBOT_JOG").json()["value"]["bEnable"] == 0
+    wait_for(lambda: any("may no longer" in one["outcome"] for one in entries(setting)), "a note about it")
+    assert server.post(base + "/jog", REQUEST, anna).status == 403
+
+
+def test_a_switch_that_another_client_writes_is_released(setting):
+    """Two programs that press it would not know which of them moves the robot."""
+    server, base, switch = begun(setting)
+    for written in ({"nBeat": 1000}, {"bEnable": 0}, {"bEnable": 1, "nBeat": 1, "dSpeed": [50, 0, 0, 0, 0, 0]}):
+        def ended():
+            hand = held(server, base, switch)
+            assert server.post(base + "/set", {"values": {f"arm::ROBOT_JOG.{name}": value for name, value in written.items()}}).status == 200
+            kept = server.post(f"{base}/jog/{hand}/keep").status
+            assert kept == 404 and switch()["bEnable"] == 0, (written, kept, switch())
+            return "another client" in ends_of(server)[-1]
+        wait_for(ended, "a note about it")
+
+
+def test_a_switch_that_was_left_pressed_is_released_before(setting):
+    """A robot whose beat has stopped moves again only after it has seen the switch released."""
+    server, base, switch = begun(setting)
+    held(server, base, switch)
+    setting.end(server.child, signal.SIGKILL)
+    server = setting.start_server("--write", "--token-file", setting.tokens)
+    switch = lambda: server.get(base + "/variables/arm::ROBOT_JOG").json()["value"]
+    assert switch()["bEnable"] == 1, "no process is left that could release it"
+    seen = []
+    pressing = threading.Thread(target=lambda: seen.append(server.post(base + "/jog", REQUEST).status))
+    pressing.start()
+    wait_for(lambda: switch()["bEnable"] == 0 or not pressing.is_alive(), "the release")
+    released = switch()["bEnable"] == 0
+    pressing.join()
+    assert released and seen == [200], (released, seen)
+    wait_for(lambda: switch()["bEnable"] == 0, "the end of this one")
+    assert held(server, base, switch)
 
 
 def test_a_lock_ends_the_motion(setting):

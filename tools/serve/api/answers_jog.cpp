@@ -11,15 +11,18 @@
 namespace indurop::serve::answers {
 namespace {
 
-Reply about_hand(Api& api, const Call& call,
-                 bool (JogDesk::*what)(const std::string&, const std::string&, const std::string&)) {
+template <class What>
+Reply about_hand(const Call& call, What what) {
   const auto found = board_of(call);
   if (!found) {
     return found.error();
   }
   const std::string& name = call.part.find("jog")->second;
-  if (!(api.jogs().*what)((*found)->name(), name, call.who)) {
-    return refusal(status::kNotFound, "this jog has ended: it was not renewed in time");
+  if (!what((*found)->name(), name)) {
+    return refusal(
+        status::kNotFound,
+        "this jog has ended: it was not renewed in time, you may no longer jog the robot, its board is locked, "
+        "or another client has written ROBOT_JOG");
   }
   base::Json body = about(**found);
   body["jog"] = name;
@@ -67,11 +70,14 @@ Reply begin_jog(Api& api, const Call& call) {
 }
 
 Reply keep_jog(Api& api, const Call& call) {
-  return about_hand(api, call, &JogDesk::keep);
+  return about_hand(call, [&](const std::string& board, const std::string& name) {
+    return api.jogs().keep(board, name, call.request->client);
+  });
 }
 
 Reply end_jog(Api& api, const Call& call) {
-  return about_hand(api, call, &JogDesk::end);
+  return about_hand(
+      call, [&](const std::string& board, const std::string& name) { return api.jogs().end(board, name, call.who); });
 }
 
 }  // namespace indurop::serve::answers

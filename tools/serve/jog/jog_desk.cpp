@@ -7,12 +7,16 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <chrono>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <span>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "core/base/name_patterns.h"
 #include "core/schema/write_field.h"
 #include "store/operate/set.h"
 #include "store/vars/custody.h"
@@ -71,12 +75,13 @@ Result<JogDesk::Switch, Problem> JogDesk::switch_of(const vars::Store& store, co
     return Problem{fmt::format("there is no {}", name)};
   }
   const auto beat = schema::find_place(store.schema(), name + ".nBeat");
+  const auto enable = schema::find_place(store.schema(), name + ".bEnable");
   const auto speed = schema::find_place(store.schema(), name + ".dSpeed");
-  if (!beat || !speed || speed->type.dims.size() != 1 || beat->type.base != schema::Base::UInt32) {
+  if (!beat || !enable || !speed || speed->type.dims.size() != 1 || beat->type.base != schema::Base::UInt32) {
     return Problem{
         fmt::format("{} has no nBeat: its robot was built with an older release and cannot be jogged remotely", name)};
   }
-  return Switch{entry, variable->type, beat->offset, speed->type.dims[0]};
+  return Switch{entry, name, variable->type, beat->offset, enable->offset, enable->type.size(), speed->type.dims[0]};
 }
 
 template <class Change>
@@ -90,9 +95,26 @@ void JogDesk::Hand::count_beat() {
   beat = std::max(beat + 1, 1U);  // 0 has another meaning
 }
 
-bool JogDesk::Hand::send_beat() {
+bool JogDesk::Hand::is_pressed(std::span<const std::uint8_t> bytes) const {
+  const auto enable = bytes.subspan(place.enable_offset, place.enable_size);
+  return std::any_of(enable.begin(), enable.end(), [](std::uint8_t byte) { return byte != 0; });
+}
+
+const char* JogDesk::Hand::send_beat() {
+  const std::uint32_t last = beat;
   count_beat();
-  return write([this](std::span<std::uint8_t> bytes) { return schema::write_field(place.type, "nBeat", beat, bytes); });
+  bool own = true;
+  const bool may = !store.retired() && vars::lock_of(board).lock == vars::WriteLock::None;
+  if (may && write([&](std::span<std::uint8_t> bytes) {
+        std::uint32_t found = 0;
+        std::memcpy(&found, bytes.data() + place.beat_offset, sizeof found);
+        own = found == last && is_pressed(bytes);
+        return own && schema::write_field(place.type, "nBeat", beat, bytes);
+      })) {
+    return nullptr;
+  }
+  release();
+  return own ? "ended: it can no longer be written" : "ended: another client has written ROBOT_JOG";
 }
 
 void JogDesk::Hand::release() {
@@ -104,6 +126,15 @@ void JogDesk::Hand::release() {
 
 JogDesk::~JogDesk() {
   desk_.expire([](Hand& hand) { hand.release(); }, "ended: the server ends", true);
+}
+
+void JogDesk::release_before(Hand& hand) {
+  constexpr std::chrono::milliseconds kPeriods{100};  // longer than the period of any robot
+  std::vector<std::uint8_t> bytes(hand.place.type.size());
+  if (hand.store.read(*hand.place.entry, 0, bytes).ok() && hand.is_pressed(bytes)) {
+    hand.release();
+    std::this_thread::sleep_for(kPeriods);
+  }
 }
 
 std::optional<Problem> JogDesk::record_path(Hand& hand) {
@@ -170,6 +201,7 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
     if (auto refused = *frame == kByHand ? record_path(pressed) : std::nullopt) {
       return refused;
     }
+    release_before(pressed);
     (void)pressed.store.read(*pressed.place.entry, pressed.place.beat_offset,
                              {reinterpret_cast<std::uint8_t*>(&pressed.beat), sizeof pressed.beat});
     pressed.count_beat();
@@ -188,16 +220,14 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
   });
 }
 
-bool JogDesk::keep(const std::string& board, const std::string& name, const std::string& who) {
+bool JogDesk::keep(const std::string& board, const std::string& name, const Client& client) {
   end_overdue();
-  return desk_.keep(board, name, who, [&board](Hand& hand) -> const char* {
-    const bool written =
-        !hand.store.retired() && vars::lock_of(board).lock == vars::WriteLock::None && hand.send_beat();
-    if (written) {
-      return nullptr;
+  return desk_.keep(board, name, client.name, [&client](Hand& hand) -> const char* {
+    if (!base::matches_any_variable(client.variables, hand.place.name)) {
+      hand.release();
+      return "ended: its user may no longer change ROBOT_JOG";
     }
-    hand.release();
-    return "ended: it can no longer be written";
+    return hand.send_beat();
   });
 }
 
@@ -207,11 +237,7 @@ bool JogDesk::end(const std::string& board, const std::string& name, const std::
 
 void JogDesk::end_overdue() {
   desk_.expire([](Hand& hand) { hand.release(); }, "ended: its client did not renew it in time");
-  desk_.for_each([](Hand& hand) {
-    if (hand.path) {
-      (void)hand.send_beat();
-    }
-  });
+  desk_.check_all([](Hand& hand) { return hand.path ? hand.send_beat() : nullptr; });
 }
 
 }  // namespace indurop::serve

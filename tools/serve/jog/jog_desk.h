@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "store/vars/store.h"
 #include "tools/serve/audit.h"
 #include "tools/serve/desk.h"
+#include "tools/serve/door/request.h"
 
 namespace indurop::serve {
 
@@ -46,8 +48,9 @@ class JogDesk {
   // refused.
   Result<std::string, base::Problem> begin(const std::string& board, const std::string& robot, const std::string& who,
                                            const std::string& from, const JogRequest& request);
-  // Renews. Returns false if this client does not hold the switch any more.
-  bool keep(const std::string& board, const std::string& name, const std::string& who);
+  // Renews. Returns false if this client does not hold the switch any more: also if it may no longer change ROBOT_JOG,
+  // or another client has written it.
+  bool keep(const std::string& board, const std::string& name, const Client& client);
   bool end(const std::string& board, const std::string& name, const std::string& who);
   // Releases switches whose client did not renew in time, and beats for hands. To be called every 0.1 s.
   void end_overdue();
@@ -59,8 +62,11 @@ class JogDesk {
   // The enabling switch of one robot.
   struct Switch {
     const vars::DirectoryEntry* entry = nullptr;
+    std::string name;  // full name of the variable
     schema::Type type;
     std::uint32_t beat_offset = 0;
+    std::uint32_t enable_offset = 0;
+    std::size_t enable_size = 0;
     std::size_t axes = 0;
   };
   // A client that presses it.
@@ -73,14 +79,18 @@ class JogDesk {
 
     Hand(vars::Store opened, Switch pressed) : store(std::move(opened)), place(std::move(pressed)) {}
     void count_beat();
-    // Writes the next beat. Returns false if it cannot be written.
-    bool send_beat();
+    [[nodiscard]] bool is_pressed(std::span<const std::uint8_t> bytes) const;
+    // Writes the next beat, if the switch is still as this client has left it. Else, and if the board is locked,
+    // releases the switch and returns the outcome: two clients that press it would not know who moves the robot.
+    const char* send_beat();
     // `change` writes fields into the value of the switch. Returns false if it cannot be written.
     template <class Change>
     bool write(Change change);
     void release();
   };
   static Result<Switch, base::Problem> switch_of(const vars::Store& store, const std::string& robot);
+  // A press is an edge: releases a switch that a client which has gone left pressed, and waits for the robot to see it.
+  static void release_before(Hand& hand);
   // Begins to record a path. Returns why that was refused.
   std::optional<base::Problem> record_path(Hand& hand);
 
