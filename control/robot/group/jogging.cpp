@@ -19,7 +19,9 @@ constexpr double kEndless = 2 * kPi;      // rad, of an axis that turns without 
 }  // namespace
 
 void Jogging::step(const JogRequest& jog, bool permitted) noexcept {
-  const bool enabled = enabling_switch_.holds(jog.enabled, jog.beat, robot_.period) && permitted;
+  own_stop_ = own_stop_ && robot_.states.stopping();
+  spent_ = jog.enabled && (spent_ || !permitted || !is_free());
+  const bool enabled = enabling_switch_.holds(jog.enabled, jog.beat, robot_.period) && !spent_;
   const auto* const wanted = std::find_if(jog.speed.begin(), jog.speed.end(), [](double v) { return v != 0; });
   const int most = jog.frame == JogFrame::Joint ? robot_.count() : 6;
   const std::optional<Quat> directions = axes_of(jog);
@@ -35,6 +37,7 @@ void Jogging::step(const JogRequest& jog, bool permitted) noexcept {
     group_.forget_plans();
     robot_.follower.stop();
     robot_.states.stop();
+    own_stop_ = true;
   }
   index_ = index;
   speed_ = speed;
@@ -45,6 +48,11 @@ void Jogging::step(const JogRequest& jog, bool permitted) noexcept {
     part_ = 1;
     begin();
   }
+}
+
+bool Jogging::is_free() const noexcept {
+  const GroupStates& states = robot_.states;
+  return states.is(GroupState::Standby) || (states.moving() && on_) || (states.stopping() && own_stop_);
 }
 
 // Returns the axes along which the frame leads, as seen from that of poses; nothing if there is no such frame.

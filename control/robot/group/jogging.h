@@ -30,6 +30,8 @@ class Jogging {
   void try_shorter() noexcept;
 
  private:
+  // Returns whether the robot does nothing but what this switch requests.
+  [[nodiscard]] bool is_free() const noexcept;
   void begin() noexcept;
   [[nodiscard]] std::optional<Quat> axes_of(const JogRequest& jog) const noexcept;
   [[nodiscard]] const WorkFrame* work_frame(std::string_view name) const noexcept;
@@ -42,7 +44,9 @@ class Jogging {
   EnablingSwitch enabling_switch_;
   bool on_ = false;
   bool blocked_ = false;
-  double part_ = 1;  // part of the longest distance
+  bool spent_ = false;     // something else has stopped the robot, or moved it: the switch has to be released first
+  bool own_stop_ = false;  // the robot comes to rest because the request has changed
+  double part_ = 1;        // part of the longest distance
   JogFrame frame_ = JogFrame::Joint;
   Quat axes_ = Quat::Identity();  // of the frame
   int index_ = -1;                // of the axis or the direction; -1: no jogging is requested

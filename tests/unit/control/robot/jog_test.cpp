@@ -212,6 +212,51 @@ TEST(Jog, Rests_when_the_beat_of_a_far_hand_stops) {
   }));
 }
 
+// Otherwise a stop would last only until the robot is at rest, and a reset would move it.
+TEST(Jog, A_switch_counts_no_more_after_something_else_has_stopped_the_robot) {
+  using Act = void (*)(Cell&);
+  struct Stop {
+    Act begin;
+    Act end;
+  };
+  const auto no_act = [](Cell& /*cell*/) {};
+  const Act enable = [](Cell& cell) { ASSERT_TRUE(cell.serve(Service::GroupEnable)); };
+  const std::vector<Stop> stops{
+      {[](Cell& cell) { cell.ask(Service::Stop); }, no_act},
+      {[](Cell& cell) { cell.ask(Service::GroupDisable); }, enable},
+      {[](Cell& cell) { cell.in.mode.mode = OperatingMode::Automatic; },
+       [](Cell& cell) { cell.in.mode.mode = OperatingMode::Any; }},
+      {[](Cell& cell) { cell.in.emergency = true; },
+       [](Cell& cell) {
+         cell.in.emergency = false;
+         ASSERT_TRUE(cell.serve(Service::GroupReset));
+         ASSERT_TRUE(cell.out.state == GroupState::Standby || cell.serve(Service::GroupEnable));
+       }},
+  };
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    Cell cell;
+    ASSERT_TRUE(cell.serve(Service::GroupEnable));
+    cell.in.jog.enabled = true;
+    cell.in.jog.frame = JogFrame::Joint;
+    cell.in.jog.speed[0] = 50;
+    ASSERT_TRUE(cell.until([&] { return cell.out.speed[0] > 5; })) << i;
+    stops[i].begin(cell);
+    ASSERT_TRUE(cell.until([&] { return cell.out.speed[0] == 0; })) << i;
+    stops[i].end(cell);
+    ASSERT_TRUE(cell.until([&] { return stands(cell); })) << i;
+    EXPECT_FALSE(cell.until([&] { return cell.out.speed[0] != 0; }, 300)) << i;
+    cell.in.jog.enabled = false;
+    cell.step();
+    cell.in.jog.enabled = true;
+    EXPECT_TRUE(cell.until([&] { return cell.out.speed[0] > 5; })) << i;
+    cell.in.jog.enabled = false;
+    cell.step();
+    cell.in.jog.enabled = true;
+    EXPECT_TRUE(cell.until([&] { return stands(cell); }) && cell.until([&] { return cell.out.speed[0] > 5; }))
+        << i << ": pressed again while it comes to rest";
+  }
+}
+
 TEST(Jog, An_axis_comes_to_its_limit_and_rests_there) {
   Cell cell;
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
