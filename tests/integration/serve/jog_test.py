@@ -163,6 +163,23 @@ def test_a_switch_that_another_client_writes_is_released(setting):
         wait_for(ended, "a note about it")
 
 
+def test_a_jog_ends_with_the_run_of_its_node(setting):
+    server, base, switch = begun(setting)
+    node = setting.children[0]
+    for again in (False, True):
+        hand = held(server, base, switch)
+        before = len(ends_of(server))
+        setting.end(node, signal.SIGKILL)
+        if again:
+            node = setting.start_node("robot")
+        wait_for(lambda: server.post(f"{base}/jog/{hand}/keep").status == 404, "its end")
+        wait_for(lambda: len(ends_of(server)) > before, "a note about it")
+        if again:
+            assert switch()["bEnable"] == 0, "it is not pressed in the next run"
+        else:
+            node = setting.start_node("robot")
+
+
 def test_a_switch_that_was_left_pressed_is_released_before(setting):
     """A robot whose beat has stopped moves again only after it has seen the switch released."""
     server, base, switch = begun(setting)

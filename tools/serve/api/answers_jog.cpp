@@ -19,10 +19,10 @@ Reply about_hand(const Call& call, What what) {
   }
   const std::string& name = call.part.find("jog")->second;
   if (!what((*found)->name(), name)) {
-    return refusal(
-        status::kNotFound,
-        "this jog has ended: it was not renewed in time, you may no longer jog the robot, its board is locked, "
-        "or another client has written ROBOT_JOG");
+    return refusal(status::kNotFound,
+                   "this jog has ended: it was not renewed in time, you may no longer jog the robot, its board has "
+                   "ended or is locked, "
+                   "or another client has written ROBOT_JOG");
   }
   base::Json body = about(**found);
   body["jog"] = name;
@@ -70,8 +70,10 @@ Reply begin_jog(Api& api, const Call& call) {
 }
 
 Reply keep_jog(Api& api, const Call& call) {
+  const auto found = board_of(call);
+  const bool alive = found && (*found)->alive();
   return about_hand(call, [&](const std::string& board, const std::string& name) {
-    return api.jogs().keep(board, name, call.request->client);
+    return alive && api.jogs().keep(board, name, call.request->client);
   });
 }
 

@@ -104,7 +104,8 @@ const char* JogDesk::Hand::send_beat() {
   const std::uint32_t last = beat;
   count_beat();
   bool own = true;
-  const bool may = !store.retired() && vars::lock_of(board).lock == vars::WriteLock::None;
+  const bool may =
+      !store.retired() && store.header().generation.load() == run && vars::lock_of(board).lock == vars::WriteLock::None;
   if (may && write([&](std::span<std::uint8_t> bytes) {
         std::uint32_t found = 0;
         std::memcpy(&found, bytes.data() + place.beat_offset, sizeof found);
@@ -186,6 +187,7 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
   std::vector<double> speed = request.speed;
   speed.resize(place->axes);
   Hand hand(std::move(store).value(), std::move(place).value());
+  hand.run = hand.store.header().generation.load();
   hand.board = board;
   hand.robot = robot;
   hand.who = {who, from, {}};

@@ -76,6 +76,7 @@ class JogDesk {
     Switch place;
     std::shared_ptr<GuidedPath> path;  // that is recorded; null: it is not moved by hand
     std::uint32_t beat = 0;
+    std::uint64_t run = 0;  // of the node: a switch that was pressed in one run is not pressed in the next one
 
     Hand(vars::Store opened, Switch pressed) : store(std::move(opened)), place(std::move(pressed)) {}
     void count_beat();
