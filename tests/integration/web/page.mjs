@@ -482,6 +482,30 @@ await browser.run({
       await page.mouse.up();
     }
     await press_until_it_moves();
+    await page.mouse.up();
+    // A network that answers no renewal: the browser must not keep requests that would still move the robot after the release.
+    let open = 0;
+    let most = 0;
+    let stalled = true;
+    await page.setRequestInterception(true);
+    page.on("request", (request) => {
+      if (!stalled || !request.url().endsWith("/keep")) return void request.continue().catch(() => undefined);
+      most = Math.max(most, ++open);
+    });
+    page.on("requestfailed", (request) => { if (request.url().endsWith("/keep")) open--; });
+    await until("no renewal is sent", async () => {
+      await page.mouse.move(...z);
+      await page.mouse.down();
+      await new Promise((done) => setTimeout(done, 1000));
+      if (open === 0) await page.mouse.up();
+      return open > 0;
+    });
+    await new Promise((done) => setTimeout(done, 1500));
+    await page.mouse.up();
+    await until("requests of a button that was released are still open", () => open === 0);
+    check(most <= 3, `${most} renewals are open at a time`);
+    stalled = false;
+    await press_until_it_moves();
     await page.close({ runBeforeUnload: false });
     await until("the robot does not stop after the page was closed", async () => !(await moves()) && !(await jog()).bEnable);
     const other = await browser.open("robot", phone);

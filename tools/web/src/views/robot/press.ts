@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The enabling device of ROBOT_JOG, pressed by this page: the server releases it if it receives nothing from the page.
 
-import { board_path, message_of, post, post_without_answer } from "../../api/http";
+import { board_path, message_of, post, post_until, post_without_answer } from "../../api/http";
 
 const RENEWALS = 3;  // within the time that the server waits for one
+// At most as many are open at a time: the browser sends few requests at once and keeps the others for later. On a slow
+// network, the robot would still move by them after the button was released.
+const MOST_OPEN = 3;
 
 // One press, until it is released or lost.
 export class Press {
   private timer = 0;
   private path = "";
   private ended = false;
+  private open = 0;
+  private readonly abandoned = new AbortController();
 
   constructor(private readonly board: string, private readonly report: (problem: string) => void) {}
 
@@ -28,11 +33,15 @@ export class Press {
   }
 
   private async renew(): Promise<void> {
+    if (this.open >= MOST_OPEN) return;
+    this.open++;
     try {
-      await post(`${this.path}/keep`, undefined);
+      await post_until(`${this.path}/keep`, this.abandoned.signal);
     } catch (error) {
       if (!this.ended) this.report(message_of(error));
       this.end();
+    } finally {
+      this.open--;
     }
   }
 
@@ -40,6 +49,7 @@ export class Press {
     if (this.ended) return;
     this.ended = true;
     clearInterval(this.timer);
+    this.abandoned.abort();
     if (this.path) this.release();
   }
 
