@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page's alarms as alarms.py describes.
-import { Browser, fill, command, press, sees, sees_no } from "./browser.mjs";
+import { Browser, check, fill, command, press, sees, sees_no } from "./browser.mjs";
 
 const browser = await Browser.launch();
 const wide = { width: 1280, height: 800 };
@@ -50,6 +50,36 @@ await browser.run({
     await sees(page, "by tester: sensor is ordered");
     await sees(page, "cleared, not acknowledged");
     await browser.check_view(page, "alarms-wide");
+    const right = await page.evaluate(() => {
+      document.querySelector(".alarms .message").append("w".repeat(300));
+      return Math.max(...[...document.querySelectorAll(".alarms .actions button")].map((one) => one.getBoundingClientRect().right));
+    });
+    check(right > 0 && right < wide.width, `a long text of an alarm moves the buttons to ${right}`);
+    await page.close();
+  },
+
+  async "A unit leaves room for the name and the value on a phone"() {
+    const page = await browser.open("variables", { width: 390, height: 844 });
+    const unit = await page.waitForSelector(".line .unit:not(:empty)");
+    const widths = await unit.evaluate((one) => {
+      one.textContent = "w".repeat(100);
+      return [...one.parentElement.children].slice(0, 2).map((cell) => cell.getBoundingClientRect().width);
+    });
+    check(widths.every((width) => width > 60), `name and value are ${widths} wide`);
+    await page.close();
+  },
+
+  async "A page without a user does not keep its session alive"() {
+    const page = await browser.open("alarms", wide);
+    await sees(page, "cleared, not acknowledged");
+    const next = async (path) => (await page.waitForRequest((request) => request.url().endsWith(path))).headers()["indurop-background"];
+    check(await next("/api/v1/status") === undefined, "its user has just opened it");
+    await page.evaluate(() => { const real = Date.now; Date.now = () => real() + 61_000; });
+    await next("/api/v1/status");  // it may have been on its way
+    check(await next("/api/v1/status") === "true", "its user has not touched it for a minute");
+    await page.mouse.move(50, 50);
+    await page.mouse.move(60, 60);
+    check(await next("/api/v1/status") === undefined, "its user has touched it");
     await page.close();
   },
 

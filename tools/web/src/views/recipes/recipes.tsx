@@ -98,7 +98,7 @@ export function Recipes() {
                 {recipes.map(({ recipe, values, saved_wall_ns, who, comment }) => (
                   <tr key={recipe}>
                     <th scope="row"><button type="button" aria-pressed={recipe === chosen} onClick={() => change_query({ r: recipe })}>{recipe}</button></th>
-                    <td class="number">{values}</td><td>{clock(saved_wall_ns)}{who && ` by ${who}`}</td><td>{comment || "-"}</td>
+                    <td class="number">{values}</td><td>{clock(saved_wall_ns)}{who && ` by ${who}`}</td><td class="comment">{comment || "-"}</td>
                     {may_load && <td><span class="actions">
                       <button type="button" class="main" aria-label={`Load ${recipe}`} onClick={() => act(recipe, "load", {})}>load</button>
                       {may_save && <button type="button" aria-label={`Remove ${recipe}`} onClick={() => act(recipe, "remove", {})}>remove</button>}
