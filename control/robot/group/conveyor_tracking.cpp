@@ -161,7 +161,7 @@ void ConveyorTracking::sense(const std::array<BeltIn, kBelts>& belts) noexcept {
 // Whatever moves the tool fails because of the belt.
 void ConveyorTracking::end_motion(ErrorCode code, const char* why) noexcept {
   if (robot_.job.running()) {
-    robot_.job.fail({code}, why, std::max(robot_.follower.source(), 0));
+    robot_.job.fail({code}, why, JobRunner::kReported);
     group_.finish_service(code);
   }
   group_.drop_motions(code);

@@ -176,7 +176,7 @@ void Group::report(Outputs& out) noexcept {
   out.may_move = mode_.permit() == ErrorCode::Ok;
   out.tool = static_cast<std::uint32_t>(robot_.tool.number());
   out.tool_name = robot_.tool.tool().name.c_str();
-  out.job = robot_.job.report(robot_.follower.source());
+  out.job = robot_.job.report(job_motions_.progress());
   answers_.report(out.job.question);
   if (overrides_.wrong()) {
     out.job.message = "ROBOT_OVERRIDE or MC_FACTORS is below 0 or no number, so the robot holds: correct it";

@@ -40,6 +40,11 @@ class InterruptShelf {
   bool step_aside() noexcept;
   // Returns whether the job is on the way to rest for that.
   [[nodiscard]] bool leaving() const noexcept { return leaving_; }
+  // While it is leaving and at rest: MoveCommand::source of the motion with which the job will go on; 0: none.
+  [[nodiscard]] int left_source() const noexcept {
+    const Saved& saved = saved_[count_];
+    return continued_source(robot_.follower.kept_path(), saved.asked ? &saved.request : nullptr, plans_.ahead());
+  }
   // Joint values where the path was left last; null if no job is saved.
   [[nodiscard]] const Joints* left_at() const noexcept { return count_ > 0 ? &path().q : nullptr; }
   // The path that was left last; a job is saved.

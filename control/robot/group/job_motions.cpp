@@ -19,6 +19,20 @@ Fault JobMotions::move(const MoveCommand& command) noexcept {
   return {};
 }
 
+JobProgress JobMotions::progress() const noexcept {
+  JobProgress now;
+  now.kept = resuming_.aside();
+  now.returns = resuming_.way_back() == Resuming::Return::ToPath && robot_.states.moving();
+  if (now.kept) {
+    now.source = robot_.states.stopping() ? robot_.follower.source() : resuming_.kept_source();
+  } else if (shelf_.leaving() && robot_.follower.idle()) {
+    now.source = shelf_.left_source();
+  } else if (robot_.job.running()) {
+    now.source = plans_.present_source();
+  }
+  return now;
+}
+
 Fault JobMotions::track(const BeltWay& way) noexcept {
   return {conveyor_.track({way.turns, way.belt - 1, way.origin, inverse_of(way.origin) * way.frame})};
 }

@@ -47,6 +47,8 @@ class JobMotions final : public MotionPort {
   void end_push() noexcept override { push_.end(); }
   // Called once per period while the group moves. Returns true if an axis pushes instead.
   bool step_push() noexcept { return push_.step(); }
+  // How far the robot is with the motions of the job, for its report.
+  [[nodiscard]] JobProgress progress() const noexcept;
   Fault track(const BeltWay& way) noexcept override;
   bool ride(bool on_product, ErrorCode& error) noexcept override;
   [[nodiscard]] Pose product() const noexcept override { return conveyor_.product_ahead(); }

@@ -104,7 +104,7 @@ void MasterSync::fail(ErrorCode code, const char* why) noexcept {
     return;
   }
   if (robot_.job.running()) {
-    robot_.job.fail({code}, why, std::max(robot_.follower.source(), 0));
+    robot_.job.fail({code}, why, JobRunner::kReported);
     group_.finish_service(code);
   } else {
     robot_.job.set_message(why);

@@ -10,7 +10,25 @@ bool goes_over(const PathPieces& path) noexcept {
   return path.count > 0 && path.segments[at(path.count - 1)].zone > 0;
 }
 
+int source_of(const PlanRequest& request) noexcept {
+  return request.chain != nullptr ? request.chain->source_at(0) : request.command.source;
+}
+
 }  // namespace
+
+int continued_source(const KeptPath& path, const PlanRequest* asked, const ReadAhead& ahead) noexcept {
+  if (path.known()) {
+    return path.source();
+  }
+  return asked != nullptr ? source_of(*asked) : ahead.source();
+}
+
+int Plans::present_source() const noexcept {
+  if (!robot_.follower.idle()) {
+    return robot_.follower.source();
+  }
+  return free() ? ahead_.source() : source_of(request_);
+}
 
 void Plans::ask(const PlanRequest& request) noexcept {
   PlanRequest asked = request;

@@ -12,6 +12,10 @@
 
 namespace indurop::robot {
 
+// MoveCommand::source of the motion with which a job goes on: the rest of its path, else `asked`, which was being
+// planned (null: none), else the first one that waits; 0: none.
+[[nodiscard]] int continued_source(const KeptPath& path, const PlanRequest* asked, const ReadAhead& ahead) noexcept;
+
 class Plans {
  public:
   Plans(Robot& robot, const PathCorrection& correction, SharedSpace& space, WaysAhead& ways)
@@ -58,6 +62,8 @@ class Plans {
   }
   // The motion that was planned last is not the one that ends where the next one begins.
   void disconnect() noexcept { unconnected_ = true; }
+  // MoveCommand::source of the motion that is followed, or will be next; 0: none.
+  [[nodiscard]] int present_source() const noexcept;
   // MoveCommand::source of what begin_next() requested last.
   [[nodiscard]] int source() const noexcept { return source_; }
 

@@ -33,6 +33,10 @@ class Resuming {
   ErrorCode resume() noexcept;
   ErrorCode step_back() noexcept;
 
+  // MoveCommand::source of the motion with which the job can be resumed; 0: none.
+  [[nodiscard]] int kept_source() const noexcept {
+    return continued_source(robot_.follower.kept_path(), asked_ ? &plans_.request() : nullptr, plans_.ahead());
+  }
   // The way back that is being followed.
   [[nodiscard]] Return way_back() const noexcept { return return_; }
   void cancel_way_back() noexcept { return_ = Return::None; }

@@ -37,7 +37,7 @@ void Stops::trip(ErrorCode code, int axis, double hardness, const char* why) noe
   group_.set_job_aside();
   FaultText text;
   name_axis({code, axis}, robot_.parts.arm, text);
-  robot_.job.fail({code, axis}, why != nullptr ? why : text, std::max(robot_.follower.source(), 0));
+  robot_.job.fail({code, axis}, why != nullptr ? why : text, JobRunner::kReported);
   group_.finish_service(Fault{code, axis});
   group_.drop_motions(code);
   group_.forget_plans();

@@ -8,7 +8,7 @@
 namespace indurop::robot {
 
 struct MotionLine {
-  int job = 0;
+  int job = -1;  // -1: none
   std::uint32_t line = 0;
 
   // `source` is above 0.

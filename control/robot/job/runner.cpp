@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/job/runner.h"
 
-#include "control/robot/job/motion_line.h"
 #include "control/robot/job/step_needs.h"
 
 namespace indurop::robot {
@@ -35,6 +34,7 @@ JobRunner::Next JobRunner::done(const StepValues::Flaw& flaw) noexcept {
 
 void JobRunner::stop() noexcept {
   if (running()) {
+    stopped_ = shown_;
     state_ = JobState::Idle;
   }
 }
@@ -48,17 +48,24 @@ void JobRunner::fail(Fault fault, const char* why, int source) noexcept {
   describe(why, source);
 }
 
-JobReport JobRunner::report(int source) const noexcept {
+JobReport JobRunner::report(const JobProgress& now) noexcept {
+  const bool back = running() && interrupts_.is(Interrupts::Phase::Returning);
+  const bool stopped = state_ == JobState::Failed || state_ == JobState::Idle;
+  if (back) {
+    shown_ = interrupted_[interrupts_.served() - 1].shown;
+  } else if (now.source > 0 && (running() || state_ == JobState::Idle || now.returns)) {
+    shown_ = MotionLine::of(now.source);
+  } else {
+    shown_ = stopped ? stopped_ : line_;
+  }
   JobReport report;
-  report.state = state_;
+  report.state = back || now.returns ? JobState::Resumes : state_;
   report.job = static_cast<std::uint32_t>(job_ + 1);
-  const bool moves = running() && source > 0;
-  const MotionLine shown = moves ? MotionLine::of(source) : MotionLine{line_job_, line_};
-  report.line = shown.line;
+  report.line = shown_.line;
   report.cycles = cycles_;
   report.name = job_ >= 0 ? book_.job(job_).name.c_str() : "";
-  report.called = job_ >= 0 && shown.job >= 0 ? book_.job(shown.job).name.c_str() : report.name;
-  report.message = message_;
+  report.called = job_ >= 0 && shown_.job >= 0 ? book_.job(shown_.job).name.c_str() : report.name;
+  report.message = now.returns ? "" : message_;
   return report;
 }
 
@@ -72,7 +79,7 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
   }
   values_.pass(seconds);
   if (const auto flaw = long_.correcting.step(seconds, values_, signals, port); !flaw.ok()) {
-    fail({ErrorCode::Line}, flaw.why, 0);
+    fail({ErrorCode::Line}, flaw.why, kReported);
     return;
   }
   bool first = true;
@@ -85,13 +92,11 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
     } else if (search_.ticket == 0 && !long_.riding.rides() && !long_.pushing.on() && pauses_.before(jobs_)) {
       if (come_to_rest(port)) {
         state_ = JobState::Paused;
-        line_ = step->line;
-        line_job_ = jobs_.job();
+        line_ = {jobs_.job(), step->line};
       }
       return;
     } else if (search_.ticket != 0 || long_.pushing.on() || !touches_world(book_, *step) || port.settled()) {
-      line_ = step->line;
-      line_job_ = jobs_.job();
+      line_ = {jobs_.job(), step->line};
       pauses_.note(jobs_);
       next = run(*step, first ? seconds : 0, signals, port);
     }

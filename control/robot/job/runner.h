@@ -15,6 +15,7 @@
 #include "control/robot/job/job.h"
 #include "control/robot/job/job_places.h"
 #include "control/robot/job/long_statements.h"
+#include "control/robot/job/motion_line.h"
 #include "control/robot/job/motion_port.h"
 #include "control/robot/job/open_question.h"
 #include "control/robot/job/outputs.h"
@@ -23,6 +24,13 @@
 #include "control/robot/kinematics/errors.h"
 
 namespace indurop::robot {
+
+// How far the robot is with the motions of a job.
+struct JobProgress {
+  int source = 0;        // of the motion that is followed, or will be next; 0: none
+  bool kept = false;     // the job was stopped or pauses, and can be resumed
+  bool returns = false;  // the robot returns to the path to resume it
+};
 
 class JobRunner {
  public:
@@ -56,6 +64,7 @@ class JobRunner {
   [[nodiscard]] int load() const noexcept { return load_; }
   // Ends the job where it is. `why` is kept as message and must outlive this object; null: ended by request.
   void stop() noexcept;
+  static constexpr int kReported = -1;  // a source: the line that was reported last
   // Ends it with a message that names file and line of the motion `source`, or of the present step if `source` is 0.
   void fail(Fault fault, const char* why, int source) noexcept;
   // Continues after RECOVER if the job is in a TRY. Returns false if it is not; then it has to fail. `ticket`: motion
@@ -75,8 +84,8 @@ class JobRunner {
   void forget() noexcept;
 
   [[nodiscard]] bool running() const noexcept { return state_ == JobState::Runs || state_ == JobState::Waits; }
-  // Returns the report, with the line of the motion `source` while the job runs ahead of it.
-  [[nodiscard]] JobReport report(int source) const noexcept;
+  // Returns the report. Called once per period, after step(), since the job runs ahead of its motions.
+  JobReport report(const JobProgress& now = {}) noexcept;
   [[nodiscard]] JobState state() const noexcept { return state_; }
   // Why it failed last.
   [[nodiscard]] const Fault& fault() const noexcept { return fault_; }
@@ -145,15 +154,16 @@ class JobRunner {
     Search search;
     JobPlaces::Finding found;
     bool in_job = false;
-    std::uint32_t line = 0;
-    int line_job = -1;
+    MotionLine line;
+    MotionLine shown;
   };
   std::array<Interrupted, kMaxPriorities> interrupted_;  // in the order in which they were interrupted
   std::uint32_t ticket_ = 0;                             // last motion that was commanded
   LineBreakpoints pauses_;
   bool in_job_ = false;  // started with a line other than the first, and has not moved yet
-  std::uint32_t line_ = 0;
-  int line_job_ = -1;  // job whose file contains that line
+  MotionLine line_;      // of the present step, which may be read ahead
+  MotionLine stopped_;   // where it was when it stopped or failed
+  MotionLine shown_;     // reported last: the line that is executed, or at which the job continues
   std::uint32_t cycles_ = 0;
   Fault fault_;
   char message_[160] = "";

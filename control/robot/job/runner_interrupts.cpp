@@ -4,7 +4,6 @@
 
 #include <cstdio>
 
-#include "control/robot/job/motion_line.h"
 #include "control/robot/job/runner.h"
 
 namespace indurop::robot {
@@ -37,9 +36,9 @@ bool JobRunner::serve_interrupts(Signals& signals, MotionPort& port) noexcept {
 }
 
 void JobRunner::begin_interrupt() noexcept {
-  interrupted_[interrupts_.served()] = {state_,           jobs_.depth(), waited_,         question_.asked(), settings_,
-                                        outputs_.on_path, search_,       places_.found(), in_job_,           line_,
-                                        line_job_};
+  interrupted_[interrupts_.served()] = {
+      state_,  jobs_.depth(), waited_, question_.asked(), settings_, outputs_.on_path, search_, places_.found(),
+      in_job_, line_,         shown_};
   state_ = JobState::Runs;
   waited_ = 0;
   question_.close();
@@ -75,7 +74,6 @@ void JobRunner::end_interrupt() noexcept {
   places_.set_found(left.found);
   in_job_ = left.in_job;
   line_ = left.line;
-  line_job_ = left.line_job;
   interrupts_.end();
 }
 
@@ -118,11 +116,12 @@ JobRunner::Next JobRunner::search(const Step& step, Signals& signals, MotionPort
 }
 
 bool JobRunner::recover(Fault fault, const char* why, int source, std::uint32_t ticket) noexcept {
-  const MotionLine shown = source > 0 ? MotionLine::of(source) : MotionLine{jobs_.job(), line_};
+  const MotionLine shown = source > 0 ? MotionLine::of(source) : line_;
   if (!continue_after(static_cast<double>(fault.code), ticket)) {
     return false;
   }
   describe(why, shown.source());
+  line_ = stopped_;  // until the step after RECOVER runs, at rest
   return true;
 }
 
@@ -154,15 +153,13 @@ bool JobRunner::continue_after(double number, std::uint32_t ticket) noexcept {
 
 // Adds file and line: of the motion `source`, or of the present step.
 void JobRunner::describe(const char* why, int source, unsigned column) noexcept {
-  const MotionLine shown = source > 0 ? MotionLine::of(source) : MotionLine{jobs_.job(), line_};
-  line_ = shown.line;
-  line_job_ = shown.job;
-  const std::string& file = book_.job(shown.job).file;
+  stopped_ = source > 0 ? MotionLine::of(source) : source == kReported && shown_.line > 0 ? shown_ : line_;
+  const std::string& file = book_.job(stopped_.job).file;
   const char* name = file.c_str() + (file.find_last_of('/') + 1);
   if (column > 0) {
-    std::snprintf(message_, sizeof message_, "%.80s:%u:%u: %s", name, line_, column, why);
+    std::snprintf(message_, sizeof message_, "%.80s:%u:%u: %s", name, stopped_.line, column, why);
   } else {
-    std::snprintf(message_, sizeof message_, "%.80s:%u: %s", name, line_, why);
+    std::snprintf(message_, sizeof message_, "%.80s:%u: %s", name, stopped_.line, why);
   }
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "control/robot/job/motion_line.h"
 #include "control/robot/job/runner.h"
 
 namespace indurop::robot {
@@ -27,8 +26,7 @@ bool JobRunner::start(int job, std::uint32_t line) noexcept {
   values_.reset();
   settings_ = {};
   load_ = 0;
-  line_ = 0;
-  line_job_ = job;
+  line_ = stopped_ = shown_ = {job, 0};
   message_[0] = '\0';
   outputs_.on_path = {};
   interrupts_.reset();
@@ -69,8 +67,7 @@ void JobRunner::go_back(int source) noexcept {
   });
   jobs_.jump(static_cast<int>(found - steps.begin()));
   question_.close();
-  line_ = found->line;
-  line_job_ = jobs_.job();
+  line_ = {jobs_.job(), found->line};
   state_ = JobState::Paused;
   pauses_.reset();
 }
@@ -88,8 +85,7 @@ void JobRunner::forget() noexcept {
   places_.reset();
   interrupts_.reset();
   pauses_.reset();
-  line_ = 0;
-  line_job_ = -1;
+  line_ = stopped_ = shown_ = {};
   message_[0] = '\0';
 }
 

@@ -33,6 +33,8 @@ struct KeptPath {
   Joints q = Joints::Zero();
   // Returns whether there is a rest.
   [[nodiscard]] bool known() const noexcept { return pieces.count > 0; }
+  // MoveCommand::source of the place where it was left; 0: none.
+  [[nodiscard]] int source() const noexcept;
 };
 
 // The speed in a blend after which it is possible to stop on the next segment, should that be the last one.

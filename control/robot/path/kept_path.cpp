@@ -31,6 +31,17 @@ void FollowedPath::keep(const Joints& q, KeptPath& kept) const noexcept {
   }
 }
 
+int KeptPath::source() const noexcept {
+  if (!known()) {
+    return 0;
+  }
+  const Segment& left = pieces.segments[0];
+  if (left.chain == nullptr) {
+    return left.source;
+  }
+  return left.chain->source_at(left.timed ? left.timing.at(place).place : place);
+}
+
 void FollowedPath::take(KeptPath& kept) noexcept {
   pieces_.copy(kept.pieces);
   kept.pieces.count = 0;

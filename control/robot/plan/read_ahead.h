@@ -34,6 +34,8 @@ class ReadAhead {
   [[nodiscard]] int count() const noexcept { return count_; }
   // Returns whether there is room: for a few motions, but for many if they are lines with zones or points of a spline.
   [[nodiscard]] bool has_room() const noexcept;
+  // MoveCommand::source of the first motion; 0: there is none.
+  [[nodiscard]] int source() const noexcept { return empty() ? 0 : command(0).source; }
   // Adds a motion; requires has_room().
   void add(const MoveCommand& command) noexcept;
 

@@ -214,6 +214,7 @@ struct ToolReport {
 };
 
 // The job that runs or ran last. `line`, from 1, refers to the file of `called`: of that job, or of one that it called.
+// It is the line that is executed, or at which the job continues.
 struct JobReport {
   JobState state = JobState::Idle;
   std::uint32_t job = 0;

@@ -161,7 +161,8 @@ enum class StopCategory : std::int16_t {
   Category2 = 2   // the robot is stopped and keeps its power
 };
 
-enum class JobState : std::int16_t { Idle, Runs, Waits, Ended, Failed, Paused };
+// Resumes: the robot returns to the path of the job, which continues there.
+enum class JobState : std::int16_t { Idle, Runs, Waits, Ended, Failed, Paused, Resumes };
 
 // "the target is out of reach", for messages.
 [[gnu::visibility("default")]] const char* to_string(ErrorCode code) noexcept;

@@ -13,7 +13,7 @@ import type { Axis, Robot } from "./robot";
 const MAKER = "InduRoP";
 const MODES = [0, 3, 1];  // ROBOT_OPERATING_MODE -> OperationalModeEnumeration: OTHER, AUTOMATIC, MANUAL_REDUCED_SPEED
 const IN_CONTROL = [1, 2, 3, 4];  // ROBOT_GROUP_STATE: all but DISABLED and ERRORSTOP
-const LOADED = [1, 2, 5];  // ROBOT_JOB_STATE: it runs, waits or pauses
+const LOADED = [1, 2, 5, 6];  // ROBOT_JOB_STATE: it runs, waits, pauses or resumes
 
 const boolean = (value: boolean): Variant => new Variant({ dataType: DataType.Boolean, value });
 const operational_mode: Derive = (mode: number) => new Variant({ dataType: DataType.Int32, value: MODES[mode] ?? 0 });

@@ -148,7 +148,7 @@ TEST(Ask, A_number_is_in_its_range_and_on_its_steps) {
 TEST(Ask, A_range_without_a_number_is_an_error_of_its_line) {
   Asking job("ASK n = \"n\" 1 TO I4\n");
   job.step();
-  EXPECT_STREQ(job.sut.report(0).message,
+  EXPECT_STREQ(job.sut.report().message,
                "a.job:1:13: no number is in the range of this question; check its ends before, with IF");
   Asking other("TRY\nASK n = \"n\", 1 / I4 1 TO 2\nRECOVER\nSET O = ERROR\nEND\nASK \"on\" CHOICE \"ok\"\n");
   other.step(3);
@@ -162,7 +162,7 @@ TEST(Ask, Time_outs_are_those_of_a_wait) {
   EXPECT_NEAR(in_vain.open().left, 0.07, 1e-9);
   in_vain.step(20);
   EXPECT_EQ(in_vain.sut.state(), JobState::Failed);
-  EXPECT_STREQ(in_vain.sut.report(0).message, "a.job:1: the question was not answered in time");
+  EXPECT_STREQ(in_vain.sut.report().message, "a.job:1: the question was not answered in time");
   EXPECT_EQ(in_vain.open().number, 0U);
 
   const std::string text = "VAR n = 7\nASK n = \"n\" 1 TO 2 TIMEOUT 0.1s ELSE\n  SET O = n\nEND\nSET P = n\n";

@@ -170,7 +170,7 @@ TEST(InterruptPriority, Random_interrupts_are_served_as_a_scheduler_with_priorit
         return;
       }
     }
-    EXPECT_EQ(sut.report(0).state, JobState::Ended) << sut.report(0).message;
+    EXPECT_EQ(sut.report().state, JobState::Ended) << sut.report().message;
     EXPECT_EQ(world.values["finished"], 1);
     EXPECT_NEAR(period, 2000 + oracle.lost, 3);
     for (const auto& each : oracle.all) {
@@ -201,8 +201,8 @@ TEST(InterruptPriority, An_error_is_handled_by_the_job_that_made_it) {
     world.values["I2"] = i >= 40 ? 1 : 0;
     sut.step(0.01, world, world);
   }
-  EXPECT_EQ(sut.report(0).state, JobState::Failed);
-  EXPECT_THAT(sut.report(0).message, HasSubstr("two.job:6: error 78 was raised"));
+  EXPECT_EQ(sut.report().state, JobState::Failed);
+  EXPECT_THAT(sut.report().message, HasSubstr("two.job:6: error 78 was raised"));
   EXPECT_EQ(world.values["n"], 77);
   EXPECT_EQ(world.values["one"], 0);
 }

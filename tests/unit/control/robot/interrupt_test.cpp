@@ -68,7 +68,7 @@ Outcome run_with(const std::vector<JobFile>& files, const Each& each) {
     each(i, world);
     sut.step(0.01, world, world);
   }
-  const JobReport report = sut.report(0);
+  const JobReport report = sut.report();
   return {{report.state, report.line, report.message}, world.values};
 }
 

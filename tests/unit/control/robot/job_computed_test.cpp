@@ -92,7 +92,7 @@ class Job_places : public testing::Test {
     for (int i = 0; i < 1000 && sut.running(); ++i) {
       sut.step(0.001, robot, robot);
     }
-    message = sut.report(0).message;
+    message = sut.report().message;
     commands = robot.commands;
     values = robot.values;
   }
@@ -311,7 +311,7 @@ class Job_searches : public Job_places {
       sut.step(0.001, robot, robot);
       robot.step();
     }
-    message = sut.report(0).message;
+    message = sut.report().message;
     state = sut.state();
   }
   JobState state = JobState::Idle;

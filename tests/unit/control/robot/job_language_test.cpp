@@ -101,7 +101,7 @@ TEST(JobLanguage, A_wait_takes_any_condition) {
   JobRunner sut(book);
   sut.start(0);
   sut.step(0.01, world, world);
-  EXPECT_EQ(sut.report(0).state, JobState::Waits);
+  EXPECT_EQ(sut.report().state, JobState::Waits);
   world.values["I5"] = 0;
   sut.step(0.01, world, world);
   EXPECT_EQ(world.values["O1"], 1);

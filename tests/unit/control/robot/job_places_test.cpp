@@ -46,7 +46,7 @@ std::vector<MoveCommand> moves_of(const std::string& text, double value = 0) {
   recorder.value = value;
   sut.start(0);
   sut.step(0.01, recorder, recorder);
-  EXPECT_EQ(sut.report(0).state, JobState::Ended) << sut.report(0).message;
+  EXPECT_EQ(sut.report().state, JobState::Ended) << sut.report().message;
   return recorder.moves;
 }
 

@@ -54,7 +54,7 @@ TEST(Job, Points_speeds_and_zones_reach_the_motion) {
   EXPECT_DOUBLE_EQ(port.moves[1].target.pose.position.x(), 0.5);
   EXPECT_EQ(port.moves[2].move, Move::Circle);
   EXPECT_FALSE(port.moves[2].mid.is_pose);
-  EXPECT_EQ(sut.report(0).state, JobState::Ended);
+  EXPECT_EQ(sut.report().state, JobState::Ended);
 }
 
 TEST(Job, A_free_motion_has_a_seed_and_a_time) {
@@ -111,7 +111,7 @@ TEST(Job, Signals_loops_jumps_and_calls) {
   port.values[0] = 9;
   sut.start(0);
   sut.step(0.01, port, port);
-  EXPECT_EQ(sut.report(0).state, JobState::Ended);
+  EXPECT_EQ(sut.report().state, JobState::Ended);
   EXPECT_EQ(port.values[2], 1);  // switched nine times
   EXPECT_DOUBLE_EQ(port.values[1], -2.5);
 }
@@ -128,8 +128,8 @@ TEST(Job, Waits_for_rest_signals_and_time) {
   port.values[1] = 1;
   sut.step(0.01, port, port);
   EXPECT_EQ(port.values[0], 1);
-  EXPECT_EQ(sut.report(0).state, JobState::Waits);
-  EXPECT_EQ(sut.report(0).line, 2U);
+  EXPECT_EQ(sut.report().state, JobState::Waits);
+  EXPECT_EQ(sut.report().line, 2U);
   port.values[1] = 0;
   int periods = 0;
   for (; port.values[0] == 1 && periods < 100; ++periods) {
@@ -146,8 +146,8 @@ TEST(Job, A_wait_that_takes_too_long_names_its_line) {
   for (int i = 0; i < 10; ++i) {
     sut.step(0.01, port, port);
   }
-  EXPECT_EQ(sut.report(0).state, JobState::Failed);
-  EXPECT_STREQ(sut.report(0).message, "a.job:2: the condition did not become true in time");
+  EXPECT_EQ(sut.report().state, JobState::Failed);
+  EXPECT_STREQ(sut.report().message, "a.job:2: the condition did not become true in time");
 }
 
 TEST(Job, A_motion_that_fails_names_its_line) {
@@ -157,7 +157,7 @@ TEST(Job, A_motion_that_fails_names_its_line) {
   port.answer = {ErrorCode::Unreachable};
   sut.start(0);
   sut.step(0.01, port, port);
-  EXPECT_STREQ(sut.report(0).message, "a.job:3: the target is out of reach");
+  EXPECT_STREQ(sut.report().message, "a.job:3: the target is out of reach");
 }
 
 TEST(Job, Endless_loops_and_recursion_do_not_hang) {
@@ -171,7 +171,7 @@ TEST(Job, Endless_loops_and_recursion_do_not_hang) {
   JobRunner deep(recursion);
   deep.start(0);
   deep.step(0.01, port, port);
-  EXPECT_STREQ(deep.report(0).message, "a.job:1: jobs call each other too deep; does one call itself without end?");
+  EXPECT_STREQ(deep.report().message, "a.job:1: jobs call each other too deep; does one call itself without end?");
 }
 
 TEST(Job, Numbered_points_are_found_by_their_number) {

@@ -49,7 +49,7 @@ inline Ended run(const JobBook& book, World& world, int periods = 20'000) {
   for (int i = 0; i < periods && sut.running(); ++i) {
     sut.step(0.001, world, world);
   }
-  const JobReport report = sut.report(0);
+  const JobReport report = sut.report();
   return {report.state, report.line, report.message};
 }
 

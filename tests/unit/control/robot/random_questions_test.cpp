@@ -127,7 +127,8 @@ class Dialogue {
 
   // Stops and resumes; nothing else happens in such a period, so that it is clear what was first.
   void disturb(Cell& cell) {
-    const bool runs = cell.out.job.state == JobState::Runs || cell.out.job.state == JobState::Waits;
+    const bool runs = cell.out.job.state == JobState::Runs || cell.out.job.state == JobState::Waits ||
+                      cell.out.job.state == JobState::Resumes;
     const bool serves = cell.out.done != cell.in.service.number;
     disturbed_ = true;
     if (!serves && cell.out.state == GroupState::ErrorStop) {

@@ -210,10 +210,11 @@ TEST(Resume, It_goes_back_to_the_path_slowly_and_then_on) {
   cell.ask(Service::JobResume);
   double fastest = 0;
   ASSERT_TRUE(cell.until([&] {
-    fastest = std::max(fastest, cell.out.job.state == JobState::Failed ? cell.out.tool_speed : 0);
+    fastest = std::max(fastest, cell.out.job.state == JobState::Resumes ? cell.out.tool_speed : 0);
     return cell.out.job.state == JobState::Runs;
   }));
   EXPECT_GT((resume_tip(cell) - pushed).norm(), 1);
+  EXPECT_GT(fastest, 10);
   EXPECT_LT(fastest, 200);
   EXPECT_TRUE(cell.until([&] { return cell.out.job.state == JobState::Ended; }));
   EXPECT_EQ(cell.values[0], 1);

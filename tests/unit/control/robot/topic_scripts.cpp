@@ -35,7 +35,7 @@ std::vector<PictureScript> scripts_of_paths() {
         {"at MOVJ PLACE2 OFFSET 0, 0, 80", 1,
          "TOOL driver: from here on, it is the path of the tip that the screwdriver will have"},
         {"O8 = 1", 1, "the tool changer locks: the arm holds the screwdriver, and lifts it along its axis"},
-        {"at MOVL SCREW OFFSET 0, 0, 30 - 10 * turn RPY 0, 0, 30 * turn SPEED 50 mm/s", 2,
+        {"at MOVL SCREW OFFSET 0, 0, 30 - 10 * turn RPY 0, 0, 30 * turn SPEED 50 mm/s", 1,
          "three times 10 mm down, turning by 30 degrees"}}},
       {"interrupts",
        "interrupts",
@@ -103,7 +103,7 @@ std::vector<PictureScript> scripts_of_paths() {
        Views::SideAndAbove,
        {},
        {{"at MOVL HERE OFFSET 0, 0, 50", 1, "a line: 50 mm up, the rail does not move"},
-        {"at MOVJ RIGHT", 2, "MOVJ: the rail and the joints arrive together"}},
+        {"at MOVJ RIGHT", 1, "MOVJ: the rail and the joints arrive together"}},
        true},
       {"machine_tending",
        "machine_tending",
@@ -177,10 +177,10 @@ std::vector<PictureScript> scripts_of_times() {
        {},
        {{"at MOVL HERE OFFSET TOOL 0, 0, -20", 1,
          "the first pass: MOVL FAR is rejected, since FAR is out of reach. RECOVER retracts the tool by 20 mm"},
-        {"at MOVL OVER OFFSET 0, 0, -100", 2, "the second pass: 100 mm down"},
+        {"at MOVL OVER OFFSET 0, 0, -100", 1, "the second pass: 100 mm down"},
         {"at MOVL HERE OFFSET TOOL 0, 0, -20", 2,
          "RAISE 101: the part is missing. RECOVER retracts the tool by 20 mm, now from here"},
-        {"at reached = i", 2, "the third pass has no error"}}},
+        {"at reached = i", 1, "the third pass has no error"}}},
   };
 }
 

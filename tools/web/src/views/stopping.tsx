@@ -30,7 +30,7 @@ async function effects_on_robots(board: string, module: string, written: Variabl
     // The value of an enumeration is its name.
     const names = form.fields?.find(({ name }) => name === "eState")?.type.enumerators;
     const doing = JOB_STATES[names?.[job.eState] ?? Number(job.eState)] ?? "";
-    if (["running", "waiting", "paused"].includes(doing)) return { text: `The robot is in the middle of a job: ${job.name || "its job"} is ${doing} in line ${job.nLine}. The robot will stop where it is.`, bad: true };
+    if (["running", "waiting", "paused", "resuming"].includes(doing)) return { text: `The robot is in the middle of a job: ${job.name || "its job"} is ${doing} in line ${job.nLine}. The robot will stop where it is.`, bad: true };
     if (arm.tool_speed > 0) return { text: "The robot is moving. It will stop where it is.", bad: true };
     return { text: `${module} is the robot task: the robot cannot move without it.`, bad: false };
   }));

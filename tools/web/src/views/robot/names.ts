@@ -2,7 +2,7 @@
 // Names of the robot task's states and commands, by their numbers in the .glb file of every robot (docs/robot.md).
 
 export const GROUP_STATES = ["disabled", "standby", "moving", "homing", "stopping", "error stop"];
-export const JOB_STATES = ["idle", "running", "waiting", "ended", "failed", "paused"];
+export const JOB_STATES = ["idle", "running", "waiting", "ended", "failed", "paused", "resuming"];
 export const SERVICE = { enable: 1, reset: 3, stop: 10, job_stop: 12, job_reload: 26 };  // OPCODE_ROBOT_SERVICE
 
 // The name that a .glb file gives an error, "ROBOT_ERR_JOINT_LIMIT"; empty: none.
