@@ -252,6 +252,15 @@ void write_job() {
   job->cMessage = out.job.message;
   job->bResume = out.job.can_resume;
   job->called = out.job.called;
+  job->nInterrupted = out.job.interrupted_count;
+  for (std::size_t k = 0; k < out.job.interrupted.size(); ++k) {
+    job->interrupted[k].name = out.job.interrupted[k].name;
+    job->interrupted[k].nLine = out.job.interrupted[k].line;
+  }
+  job->nPending = out.job.pending_count;
+  for (std::size_t k = 0; k < out.job.pending.size(); ++k) {
+    job->pending[k].name = out.job.pending[k];
+  }
 }
 
 void write_question() {

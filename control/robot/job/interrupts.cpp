@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/job/interrupts.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace indurop::robot {
@@ -51,6 +52,30 @@ std::size_t Interrupts::due() const noexcept {
     }
   }
   return found;
+}
+
+// Lower priority numbers first, equal ones in the order of the book.
+std::size_t Interrupts::pending(std::span<int> jobs) const noexcept {
+  std::size_t count = 0;
+  int next = 0;
+  for (int priority = 0; next <= JobBook::Interrupt::kLast; priority = next) {
+    next = JobBook::Interrupt::kLast + 1;
+    for (std::size_t i = 0; i < book_.interrupts.size(); ++i) {
+      const JobBook::Interrupt& one = book_.interrupts[i];
+      if (!all_[i].pending || one.priority < priority) {
+        continue;
+      }
+      if (one.priority > priority) {
+        next = std::min(next, one.priority);
+        continue;
+      }
+      if (count < jobs.size()) {
+        jobs[count] = one.job;
+      }
+      ++count;
+    }
+  }
+  return count;
 }
 
 int Interrupts::begin() noexcept {

@@ -9,6 +9,7 @@
 #include <indurop/robot/controller.h>
 
 #include <array>
+#include <span>
 
 #include "control/robot/job/job.h"
 
@@ -40,6 +41,9 @@ class Interrupts {
   [[nodiscard]] std::size_t served() const noexcept { return count_; }
   // Returns whether one has come that may interrupt what runs now.
   [[nodiscard]] bool any_due() const noexcept { return due() < book_.interrupts.size(); }
+  // Writes the jobs that those which have come will call, in the order in which they will be served, as far as there is
+  // room. Returns their number.
+  std::size_t pending(std::span<int> jobs) const noexcept;
   // One that is due is about to be served.
   void begin_leaving() noexcept { phase_ = Phase::Leaving; }
   // The robot is at rest: serves the one with the lowest priority number that is due now, and returns the job to call.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/robot/job/runner.h"
 
+#include <algorithm>
+
 #include "control/robot/job/step_needs.h"
 
 namespace indurop::robot {
@@ -51,8 +53,9 @@ void JobRunner::fail(Fault fault, const char* why, int source) noexcept {
 JobReport JobRunner::report(const JobProgress& now) noexcept {
   const bool back = running() && interrupts_.is(Interrupts::Phase::Returning);
   const bool stopped = state_ == JobState::Failed || state_ == JobState::Idle;
+  const std::size_t served = interrupts_.served() - (back ? 1 : 0);  // the job to which it returns is not interrupted
   if (back) {
-    shown_ = interrupted_[interrupts_.served() - 1].shown;
+    shown_ = interrupted_[served].shown;
   } else if (now.source > 0 && (running() || state_ == JobState::Idle || now.returns)) {
     shown_ = MotionLine::of(now.source);
   } else {
@@ -66,6 +69,20 @@ JobReport JobRunner::report(const JobProgress& now) noexcept {
   report.name = job_ >= 0 ? book_.job(job_).name.c_str() : "";
   report.called = job_ >= 0 && shown_.job >= 0 ? book_.job(shown_.job).name.c_str() : report.name;
   report.message = now.returns ? "" : message_;
+  if (!running() && !now.kept) {
+    return report;
+  }
+  report.interrupted_count = static_cast<std::uint16_t>(served);
+  for (std::size_t i = 0; i < served; ++i) {
+    const MotionLine& left = interrupted_[i].shown;
+    report.interrupted[i] = {book_.job(left.job).name.c_str(), left.line};
+  }
+  std::array<int, kReportedPending> jobs{};
+  const std::size_t count = interrupts_.pending(jobs);
+  report.pending_count = static_cast<std::uint16_t>(count);
+  for (std::size_t i = 0; i < std::min(count, jobs.size()); ++i) {
+    report.pending[i] = book_.job(jobs[i]).name.c_str();
+  }
   return report;
 }
 

@@ -213,6 +213,14 @@ struct ToolReport {
   std::array<double, 6> acceleration{};
 };
 
+// Where a job that an interrupt has left continues: a line, from 1, of the file of `name`.
+struct InterruptedJob {
+  const char* name = "";  // valid as long as the controller
+  std::uint32_t line = 0;
+};
+
+inline constexpr std::size_t kReportedPending = 8;
+
 // The job that runs or ran last. `line`, from 1, refers to the file of `called`: of that job, or of one that it called.
 // It is the line that is executed, or at which the job continues.
 struct JobReport {
@@ -224,6 +232,12 @@ struct JobReport {
   const char* message = "";  // the same
   bool can_resume = false;   // JobResume can resume it
   const char* called = "";   // valid as long as the controller
+  std::uint16_t interrupted_count = 0;
+  std::array<InterruptedJob, 3>
+      interrupted{};                // by ON, in this order; each continues when what interrupted it has ended
+  std::uint16_t pending_count = 0;  // interrupts that wait to be served
+  // The jobs that they call, the next one first; more than these may wait.
+  std::array<const char*, kReportedPending> pending{"", "", "", "", "", "", "", ""};
   QuestionReport question{};
 };
 

@@ -8,6 +8,7 @@
 #include "tools/cli/robot/guiding.h"
 #include "tools/cli/robot/hand.h"
 #include "tools/cli/robot/identifying.h"
+#include "tools/cli/robot/jobs.h"
 #include "tools/cli/robot/questions.h"
 #include "tools/cli/robot/reload.h"
 #include "tools/cli/robot/teaching.h"
@@ -187,6 +188,15 @@ void declare_format(base::Options& app, RobotOptions& options) {
   command.flag("--check", options.format.check, "Change nothing; exit code 4 if a file would change");
 }
 
+void declare_job(base::Options& app, Context& context, RobotOptions& options) {
+  base::Options& command =
+      app.command("job", "Show the job, what it has interrupted, and which interrupts wait",
+                  [&options] { options.chosen = [&options](Context& c) { return show_job(c, options.choice); }; });
+  add_choice(command, context, options);
+  add_remote_options(command, context);
+  add_format_option(command, context, {Format::Table, Format::Json, Format::Csv});
+}
+
 void declare_question(base::Options& app, Context& context, RobotOptions& options) {
   base::Options& command = app.command("question", "Show the question that the job asks the operator", [&options] {
     options.chosen = [&options](Context& c) { return show_question(c, options.choice, options.wait_ns); };
@@ -221,6 +231,7 @@ Action declare_robot(base::Options& app, Context& context) {
   declare_guide(app, context, *options);
   declare_identify(app, context, *options);
   declare_calibrate(app, context, *options);
+  declare_job(app, context, *options);
   declare_question(app, context, *options);
   declare_answer(app, context, *options);
   declare_format(app, *options);
@@ -243,6 +254,7 @@ const Verb kRobotVerb{
     "  indurop robot teach CORNER --in pallet --file points.job\n"
     "  indurop robot reload\n"
     "  indurop robot points\n"
+    "  indurop robot job\n"
     "  indurop robot answer left\n"
     "  indurop robot format *.job\n"
     "  indurop robot identify swing.mcap --config module.xml\n"

@@ -125,6 +125,29 @@ class Scheduler {
     }
   }
 
+  // What is reported after the same period: all jobs wait in their second line, the first one after all its ON.
+  void check(int period, const JobReport& report) const {
+    const auto name = [](std::size_t i) { return fmt::format("job{}", i); };
+    ASSERT_EQ(report.interrupted_count, open_.size()) << "period " << period;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      ASSERT_EQ(report.interrupted[i].name, i == 0 ? "main" : name(open_[i - 1].interrupt)) << "period " << period;
+      ASSERT_EQ(report.interrupted[i].line, i == 0 ? all.size() + 1 : 2) << "period " << period;
+    }
+    ASSERT_EQ(report.state == JobState::Resumes, period == returns_until_ - 1) << "period " << period;
+    ASSERT_EQ(std::string(report.called), open_.empty() ? "main" : name(open_.back().interrupt)) << "period " << period;
+    std::vector<std::pair<int, std::size_t>> due;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].pending) {
+        due.emplace_back(all[i].priority, i);
+      }
+    }
+    std::sort(due.begin(), due.end());
+    ASSERT_EQ(report.pending_count, due.size()) << "period " << period;
+    for (std::size_t i = 0; i < due.size(); ++i) {
+      ASSERT_EQ(report.pending[i], name(due[i].second)) << "period " << period;
+    }
+  }
+
   static constexpr int kLastEdge = 1500;
   std::vector<Interrupt> all;
   std::size_t deepest = 0;
@@ -166,6 +189,9 @@ TEST(InterruptPriority, Random_interrupts_are_served_as_a_scheduler_with_priorit
       oracle.change_inputs(period, world);
       sut.step(0.01, world, world);
       oracle.check(period, world);
+      if (sut.running()) {
+        oracle.check(period, sut.report());
+      }
       if (HasFatalFailure()) {
         return;
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is reported of a job: the line that is executed, as the place of the tool shows, and that a robot which returns
-// to its path resumes its job.
+// What is reported of a job: the line that is executed, as the place of the tool shows; that a robot which returns to
+// its path resumes its job; and which jobs are interrupted and which interrupts wait.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "interrupt_cell.h"
+#include "job_world.h"
 #include "limit_judge.h"
 
 namespace indurop::robot {
@@ -132,11 +133,20 @@ TEST_F(JobReports, A_stop_on_the_way_back_is_the_state_again) {
   ASSERT_TRUE(cell->until([&] { return job().state == JobState::Ended; }));
 }
 
-TEST_F(JobReports, It_resumes_while_the_robot_returns_from_an_interrupt) {
+std::vector<std::string> interrupted(const JobReport& report) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < report.interrupted_count; ++i) {
+    all.push_back(fmt::format("{}:{}", report.interrupted[i].name, report.interrupted[i].line));
+  }
+  return all;
+}
+
+TEST_F(JobReports, An_interrupted_job_is_named_until_the_robot_returns_to_it) {
   JobMachine sut(kInterruptPoints + "ON I1 CALL other\nMOVJ A\nSPEED 100 mm/s\nMOVL B\nMOVL C\n",
                  {{"other", "SPEED 30%\nMOVL BACK OFFSET 0, 0, 40\nWAIT 0.2s\n"}});
   const JobReport& job = sut.cell.out.job;
   ASSERT_TRUE(sut.until([&] { return job.line == 11 && sut.cell.out.tool_speed > 90; }));
+  EXPECT_EQ(job.interrupted_count, 0);
   sut.signal("I1") = 1;
   ASSERT_TRUE(sut.until([&] { return std::string_view(job.called) == "other"; }));
   std::vector<std::string> seen;
@@ -151,14 +161,66 @@ TEST_F(JobReports, It_resumes_while_the_robot_returns_from_an_interrupt) {
       return true;
     }
     note();
+    EXPECT_THAT(interrupted(job), ElementsAre("main:11")) << seen.back();
     return false;
   }));
   EXPECT_THAT(seen, ElementsAre("1 other:2", "2 other:3"));
   ASSERT_TRUE(sut.until([&] {
     note();
+    EXPECT_EQ(job.interrupted_count, 0);
     return job.state == JobState::Runs && job.line == 12;
   }));
   EXPECT_THAT(seen, ElementsAre("1 other:2", "2 other:3", "6 main:11", "1 main:11", "1 main:12"));
+}
+
+// They remain while the job is stopped, and end with it.
+TEST_F(JobReports, Interrupts_that_wait_are_named_in_the_order_in_which_they_are_served) {
+  JobMachine sut(
+      kInterruptPoints + "ON I1 CALL other\nON I2 CALL third\nON I3 CALL second PRIORITY 7\nMOVJ A\nWAIT 1s\n",
+      {{"other", "WAIT 1s\n"}, {"second", "WAIT 2s\n"}, {"third", "WAIT 0.1s\n"}});
+  const JobReport& job = sut.cell.out.job;
+  const auto pending = [&] {
+    return std::vector<std::string>(job.pending.begin(), job.pending.begin() + job.pending_count);
+  };
+  ASSERT_TRUE(sut.until([&] { return job.line == 12; }));
+  sut.signal("I3") = 1;
+  ASSERT_TRUE(sut.until([&] { return std::string_view(job.called) == "second"; }));
+  EXPECT_THAT(pending(), ElementsAre());
+  sut.signal("I2") = 1;
+  sut.step();
+  EXPECT_THAT(pending(), ElementsAre("third"));
+  sut.signal("I1") = 1;
+  sut.step();
+  EXPECT_THAT(pending(), ElementsAre("other", "third"));
+  sut.cell.ask(Service::JobStop);
+  ASSERT_TRUE(sut.until([&] { return sut.cell.out.state == GroupState::Standby; }));
+  EXPECT_EQ(job.state, JobState::Idle);
+  EXPECT_THAT(interrupted(job), ElementsAre("main:12"));
+  EXPECT_THAT(pending(), ElementsAre("other", "third"));
+  sut.cell.ask(Service::JobResume);
+  ASSERT_TRUE(sut.until([&] { return std::string_view(job.called) == "other"; }));
+  EXPECT_THAT(pending(), ElementsAre("third"));
+  EXPECT_THAT(interrupted(job), ElementsAre("main:12"));
+  ASSERT_TRUE(sut.until([&] { return sut.ended(); }));
+  EXPECT_EQ(job.state, JobState::Ended);
+  EXPECT_EQ(job.interrupted_count + job.pending_count, 0);
+}
+
+TEST(JobReport, More_interrupts_than_can_be_named_are_counted) {
+  std::string main;
+  for (int i = 0; i < 12; ++i) {
+    main += "ON I1 CALL other\n";
+  }
+  const ReadJobs read = parse_jobs({{"main.job", main + "WAIT 1s\n"}, {"other.job", "WAIT 1s\n"}});
+  ASSERT_TRUE(read.diagnostics.empty()) << base::to_text(read.diagnostics);
+  World world(read.book.signals);
+  JobRunner sut(read.book);
+  sut.start(0);
+  sut.step(0.01, world, world);
+  world.values["I1"] = 1;
+  sut.step(0.01, world, world);
+  EXPECT_EQ(sut.report().pending_count, 11);
+  EXPECT_STREQ(sut.report().pending.back(), "other");
 }
 
 }  // namespace

@@ -57,6 +57,12 @@ function job_text(state: RobotState): string {
   return state.job_called === state.job ? `${state.job}, ` : `${state.job}, in ${state.job_called}, `;
 }
 
+// "clear, eject and 2 more".
+function pending_text({ pending, pending_count }: RobotState): string {
+  const more = pending_count - pending.length;
+  return more > 0 ? `${pending.join(", ")} and ${more} more` : pending.join(", ");
+}
+
 // Why the robot task does not run, as text; empty: it does.
 function why_down(alive: boolean, scope: Scope | null, modules: Module[] | null): string {
   if (!alive) return "The node is not running";
@@ -83,6 +89,8 @@ function Numbers({ state, names, down }: { state: RobotState; names: string[]; d
       <dl class="facts">
         <Fact name="State" value={down ? "not running" : state.waits_for ? `${state.group}, waits for ${state.waits_for}` : state.group} bad={!!down || state.group.includes("error")} warn={state.group === "disabled"} />
         <Fact name="Job" value={state.job ? `${job_text(state)}line ${state.job_line}: ${down ? "not running" : state.job_state}` : "none"} bad={!!down || state.job_state === "failed"} />
+        {state.interrupted.length > 0 && <Fact name="Interrupted" value={state.interrupted.join("; ")} hint="jobs that ON has interrupted; the last one continues first" />}
+        {state.pending_count > 0 && <Fact name="Pending interrupts" value={pending_text(state)} hint="jobs that will be called, in this order" />}
         <Fact name="Tool speed" value={down ? "-" : fixed(state.tool_speed, 0, "mm/s")} />
         <Fact name="Effective override" value={down ? "-" : fixed(state.override_now, 0, "%")} hint="current speed in percent of the programmed speed, after override, job and hold" />
         <Fact name="Time remaining" value={down ? "-" : fixed(state.remaining_s, 1, "s")} />

@@ -27,6 +27,9 @@ export interface RobotState {
   job_line: number;
   job_called: string;  // the job that this line belongs to: the job itself, or one that it called
   job_state: string;
+  interrupted: string[];  // jobs that ON has interrupted, with their lines: "main, line 12"
+  pending: string[];  // jobs that interrupts which wait will call, the next one first
+  pending_count: number;  // there may be more of them than can be named
   job_message: string;
   override_set: number;
   hold: boolean;
@@ -78,6 +81,11 @@ function name_of(list: string[], state: unknown): string {
   return list[Number(state)] ?? `state ${state}`;
 }
 
+// The first ones of a list of fixed size.
+function named<T>(list: any[] | undefined, count: number | undefined, text: (one: any) => T): T[] {
+  return (list ?? []).slice(0, count ?? 0).map(text);
+}
+
 function state_of(values: Record<string, any>, errors: Record<string, number> | undefined): RobotState {
   const { arm = {}, module = {}, job = {}, space = {}, guide = {} } = values;
   return {
@@ -87,6 +95,8 @@ function state_of(values: Record<string, any>, errors: Record<string, number> | 
     error_name: module.nError ? name_of_error(module.nError, errors) : "", resumable: !!job.bResume,
     job: job.name ?? "", job_line: job.nLine ?? 0,
     job_called: job.called || job.name || "", job_state: name_of(JOB_STATES, job.eState), job_message: job.cMessage ?? "",
+    interrupted: named(job.interrupted, job.nInterrupted, ({ name, nLine }) => `${name}, line ${nLine}`),
+    pending: named(job.pending, job.nPending, ({ name }) => name), pending_count: job.nPending ?? 0,
     override_set: values.override ?? NaN, hold: !!values.hold, acknowledged: module.nAcknowledge ?? 0,
     tool: arm.nTool ?? 0,
     waits_for: space.cWaitsFor ?? "", automatic: arm.eMode === 1, manual: arm.eMode === 2, guided: !!arm.bGuided, mark: guide.nMark ?? 0, may_move: arm.bMayMove !== 0,
