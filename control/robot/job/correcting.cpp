@@ -23,7 +23,8 @@ const char* Correcting::either(const char* correct, const char* press) const noe
   return now().presses() ? press : correct;
 }
 
-StepValues::Flaw Correcting::run(const Step& step, const JobPlaces& places, MotionPort& port, bool& done) noexcept {
+StepValues::Flaw Correcting::run(const Step& step, int source, const JobPlaces& places, MotionPort& port,
+                                 bool& done) noexcept {
   if (step.slot < 0) {
     if (on() && now().presses() != (step.mid == 1)) {
       return {either("CORRECT is on; it ends with CORRECT OFF", "PRESS is on; it ends with PRESS OFF")};
@@ -45,6 +46,7 @@ StepValues::Flaw Correcting::run(const Step& step, const JobPlaces& places, Moti
   done = port.begin_correction(way);
   if (done) {
     now_ = step.slot;
+    source_ = source;
     skipped_ = false;
     age_ = 0;
   }

@@ -41,13 +41,13 @@ void JobRunner::stop() noexcept {
   }
 }
 
-void JobRunner::fail(Fault fault, const char* why, int source) noexcept {
+void JobRunner::fail(Fault fault, const char* why, int source, unsigned column) noexcept {
   if (!running()) {
     return;
   }
   state_ = JobState::Failed;
   fault_ = fault;
-  describe(why, source);
+  describe(why, source, column);
 }
 
 JobReport JobRunner::report(const JobProgress& now) noexcept {
@@ -96,7 +96,8 @@ void JobRunner::step(double seconds, Signals& signals, MotionPort& port) noexcep
   }
   values_.pass(seconds);
   if (const auto flaw = long_.correcting.step(seconds, values_, signals, port); !flaw.ok()) {
-    fail({ErrorCode::Line}, flaw.why, kReported);
+    // A value that is missing is wrong in its own line; anything else happens on the way.
+    fail({ErrorCode::Line}, flaw.why, flaw.column > 0 ? long_.correcting.source() : kReported, flaw.column);
     return;
   }
   bool first = true;
@@ -133,7 +134,7 @@ bool JobRunner::step_outputs(double seconds, Signals& signals, const MotionPort&
   int source = 0;
   const auto flaw = outputs_.followed.step(live, values_, signals, port, source);
   if (!flaw.ok()) {
-    fail({ErrorCode::Line}, flaw.why, source);
+    fail({ErrorCode::Line}, flaw.why, source, flaw.column);
   }
   return flaw.ok();
 }
@@ -248,16 +249,17 @@ JobRunner::Next JobRunner::run(const Step& step, double seconds, Signals& signal
 JobRunner::Next JobRunner::select(const Step& step, double seconds, Signals& signals, MotionPort& port) noexcept {
   bool is_done = false;
   StepValues::Flaw flaw;
+  const int source = MotionLine{jobs_.job(), step.line}.source();
   if (step.op == Op::Track) {
     flaw = long_.riding.run(step, places_, port, is_done);
   } else if (long_.riding.rides()) {
     flaw = {"tool, load and correction must not change, nor an axis push, while the tool moves with a belt; TRACK OFF"};
   } else if (step.op == Op::Correct) {
-    flaw = long_.correcting.run(step, places_, port, is_done);
+    flaw = long_.correcting.run(step, source, places_, port, is_done);
   } else if (long_.correcting.on()) {
     flaw = {"tool and load must not change, nor an axis push, while CORRECT or PRESS is on; its OFF comes before"};
   } else if (step.op == Op::Push) {
-    flaw = long_.pushing.run(step, seconds, MotionLine{jobs_.job(), step.line}.source(), signals, port, is_done);
+    flaw = long_.pushing.run(step, seconds, source, signals, port, is_done);
   } else {
     is_done = step.op == Op::Tool ? port.take_tool(step.index) : port.take_load(step.index);
   }

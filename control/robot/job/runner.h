@@ -66,7 +66,8 @@ class JobRunner {
   void stop() noexcept;
   static constexpr int kReported = -1;  // a source: the line that was reported last
   // Ends it with a message that names file and line of the motion `source`, or of the present step if `source` is 0.
-  void fail(Fault fault, const char* why, int source) noexcept;
+  // `column`: in that line; 0: none in particular.
+  void fail(Fault fault, const char* why, int source, unsigned column = 0) noexcept;
   // Continues after RECOVER if the job is in a TRY. Returns false if it is not; then it has to fail. `ticket`: motion
   // that is not possible; outputs that are to be set during it or a later motion are discarded.
   bool recover(Fault fault, const char* why, int source, std::uint32_t ticket) noexcept;

@@ -130,10 +130,12 @@ TEST_F(Press, A_sensor_that_is_silent_or_reports_no_number_ends_the_job) {
   sensor = [&] { *values["N"] += ++count < 900 ? 1 : 0; };
   ASSERT_TRUE(follow([&] { return resting() && ended(); }));
   EXPECT_THAT(message(), HasSubstr("PRESS has had no new measurement"));
-  press("WAIT 5s\n");
+  // The line that is wrong is that of the PRESS, whatever line is executed.
+  press("WAIT 0.1s\nMOVL B SPEED 100 mm/s\n");
   sensor = [&] { *values["F"] = z() < 1299 ? std::nan("") : 0; };
   ASSERT_TRUE(follow([&] { return resting() && ended(); }));
   EXPECT_EQ(cell->out.error, ErrorCode::Line);
+  EXPECT_THAT(message(), HasSubstr(":5:11: this has no value"));
 }
 
 TEST_F(Press, In_a_hold_nothing_moves_and_at_a_low_override_it_is_slow) {
