@@ -25,6 +25,7 @@ struct FileNames {
   double tool_turn_speed = 180;  // deg/s, as in Settings
   // As in Settings; without them, an endless axis may be anywhere.
   std::vector<double> counts_per_turn{}, gear{}, zero{};
+  std::vector<double> rated_torque{};  // as in Settings; without it, no axis can push
 };
 
 FileNames names_of(const Settings& settings);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "control/robot/files/check_calls.h"
+#include "control/robot/files/check_pushes.h"
 #include "control/robot/files/check_slow_axes.h"
 #include "control/robot/files/check_splines.h"
 #include "control/robot/files/check_workpiece.h"
@@ -238,6 +239,7 @@ ReadFiles read_files(const FileNames& names) {
     take_over(check_axes_of_motions(read.book, read.model->arm), read.errors);
     take_over(check_workpiece(read.book, read.model->arm, names.workspace), read.errors);
     sort_out(check_calls(read.book), read);
+    take_over(check_pushes(read.book, *read.model, names.rated_torque), read.errors);
     sort_out(check_loads(read.book, read.model->dynamics), read);
     sort_out(check_speeds(read.book, names.tool_speed), read);
     sort_out(check_slow_axes(read.book, *read.model, names.tool_speed), read);
@@ -273,7 +275,8 @@ FileNames names_of(const Settings& settings) {
           settings.tool_turn_speed,
           settings.counts_per_turn,
           settings.gear,
-          settings.zero};
+          settings.zero,
+          settings.rated_torque};
 }
 
 Findings check_module(FileNames names, const PropertyText& property) {

@@ -210,7 +210,13 @@ void BlockReader::case_default() {
 }
 
 void BlockReader::timeout_else() {
-  if (line_.failed() || !line_.accept("ELSE")) {
+  if (line_.failed()) {
+    return;
+  }
+  if (!line_.accept("ELSE")) {
+    if (draft_.last().op == Op::WaitUntil && draft_.last().timeout > 0 && draft_.is_never(draft_.last().formula)) {
+      line_.error(line_.first(), "this condition is never true, so the WAIT always fails; WAIT 2s waits for a time");
+    }
     return;
   }
   const std::size_t wait = draft_.next() - 1;

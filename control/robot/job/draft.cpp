@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "control/robot/job/constants.h"
+
 namespace indurop::robot {
 
 namespace {
@@ -74,6 +76,10 @@ int JobDraft::variable_called(std::string_view name) const noexcept {
   const std::vector<std::string>& variables = job().variables;
   const auto found = std::find(variables.begin(), variables.end(), name);
   return found == variables.end() ? -1 : static_cast<int>(found - variables.begin());
+}
+
+std::optional<double> JobDraft::constant(int formula) const {
+  return formula < 0 ? std::nullopt : constant_of(book_.formulas[static_cast<std::size_t>(formula)]);
 }
 
 }  // namespace indurop::robot

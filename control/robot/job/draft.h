@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -30,6 +31,10 @@ class JobDraft {
 
   // Returns the index of the formula in the book.
   int keep(Formula formula) const;
+  // Returns the value of an expression of numbers; none: it depends on anything else.
+  [[nodiscard]] std::optional<double> constant(int formula) const;
+  // Returns whether a condition is 0 whatever happens.
+  [[nodiscard]] bool is_never(int formula) const { return constant(formula) == 0.0; }
   // Keeps formulas next to each other. Returns the index of the first one; -1 if there are none.
   int keep(std::vector<Formula> formulas) const;
   // Returns the index in the book of the shared variable that `name` reads, or sets. Keeps the first place of each use.

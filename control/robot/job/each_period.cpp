@@ -44,10 +44,32 @@ void EachPeriodReader::press() {
   }
   press.formula = draft_.keep(std::move(forces));
   axes(press);
-  if (amount(press.most, {"MOST", "N", 1e5, 1, kExample}) && stiffness(press, kExample) && limits(press, kExample)) {
+  if (amount(press.most, {"MOST", "N", 1e5, 1, kExample}) && permitted(press) && stiffness(press, kExample) &&
+      limits(press, kExample)) {
     age(press);
   }
   keep(press);
+}
+
+// Where all forces are the wanted ones, their sum is measured.
+bool EachPeriodReader::permitted(const JobCorrection& press) {
+  std::array<double, 2> squares{};  // of the wanted and of the measured forces that are known
+  std::array<double, 2> greatest{};
+  JobToken at;
+  for (int i = 0; i < 2 * press.directions; ++i) {
+    const double force = std::abs(draft_.constant(press.formula + i).value_or(0));
+    const auto kind = static_cast<std::size_t>(i % 2);
+    squares[kind] += force * force;
+    if (force > greatest[kind]) {
+      greatest[kind] = force;
+      at.column = draft_.book().formulas[static_cast<std::size_t>(press.formula + i)].column();
+    }
+    if (std::sqrt(squares[kind]) > press.most) {
+      line_.error(at,
+                  "PRESS fails above its MOST, which is less than this force; MOST has to leave some room above it");
+    }
+  }
+  return !line_.failed();
 }
 
 // Parses "20, -WRIST::fz ALONG Z".

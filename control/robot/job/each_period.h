@@ -36,6 +36,7 @@ class EachPeriodReader {
   bool limits(JobCorrection& correction, const char* example);
   bool direction(JobCorrection& press, std::vector<Formula>& forces);
   bool axis(JobCorrection& press);
+  bool permitted(const JobCorrection& press);
   bool stiffness(JobCorrection& press, const char* example);
   void axes(JobCorrection& correction);
   void keep(const JobCorrection& correction);

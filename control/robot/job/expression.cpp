@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string>
 #include <utility>
 
-#include "control/robot/job/place_formulas.h"
+#include "control/robot/job/constants.h"
 
 namespace indurop::robot {
 
@@ -28,41 +29,16 @@ constexpr std::array<Sign, 8> kComparisons{{{"=", FormulaOp::Equal},
                                             {">=", FormulaOp::GreaterEqual}}};
 constexpr std::array<Sign, 3> kProducts{
     {{"*", FormulaOp::Multiply}, {"/", FormulaOp::Divide}, {"MOD", FormulaOp::Modulo}}};
-struct Function {
-  const char* name;
-  FormulaOp op;
-  int values;  // that it takes; 0: two or more
-};
-constexpr std::array<Function, 13> kFunctions{{{"ABS", FormulaOp::Abs, 1},
-                                               {"SQRT", FormulaOp::Sqrt, 1},
-                                               {"SIN", FormulaOp::Sin, 1},
-                                               {"COS", FormulaOp::Cos, 1},
-                                               {"TAN", FormulaOp::Tan, 1},
-                                               {"ASIN", FormulaOp::Asin, 1},
-                                               {"ACOS", FormulaOp::Acos, 1},
-                                               {"ATAN", FormulaOp::Atan, 1},
-                                               {"ATAN2", FormulaOp::Atan2, 2},
-                                               {"ROUND", FormulaOp::Round, 1},
-                                               {"TRUNC", FormulaOp::Trunc, 1},
-                                               {"MIN", FormulaOp::Min, 0},
-                                               {"MAX", FormulaOp::Max, 0}}};
-struct PlaceFunction {
-  const char* name;
-  Coordinate which;
-};
-constexpr std::array<PlaceFunction, 7> kPlaceFunctions{{{"X", Coordinate::X},
-                                                        {"Y", Coordinate::Y},
-                                                        {"Z", Coordinate::Z},
-                                                        {"ROLL", Coordinate::Roll},
-                                                        {"PITCH", Coordinate::Pitch},
-                                                        {"YAW", Coordinate::Yaw},
-                                                        {"DIST", Coordinate::Distance}}};
 constexpr std::array<const char*, 16> kReserved{"BEFORE", "AFTER", "AND",     "OR",   "NOT",  "MOD", "ON",    "OFF",
                                                 "TO",     "STEP",  "TIMEOUT", "GOTO", "ELSE", "END", "PARAM", "VAR"};
 
 // The name of "a[3]".
 std::string_view without_index(std::string_view name) noexcept {
   return name.substr(0, name.find('['));
+}
+
+bool is_index(double number, int size) noexcept {
+  return number >= 0 && number < size && number == std::floor(number);
 }
 
 // The number in "a[3]"; -1: it has none.
@@ -163,16 +139,16 @@ ExpressionReader::Place ExpressionReader::place(int depth) {
   place.variable = draft_.variable_called(without_index(name.text));
   const int size = draft_.array_at(place.variable);
   const int index = index_in(name.text);
-  const std::string known(without_index(name.text));
+  const std::string known_name(without_index(name.text));
   if (size == 0 && (index >= 0 || line_.peek().text == "[")) {
-    line_.error(name, in_quotes(known) + " is no array; declare it, VAR " + known + "[10]");
+    line_.error(name, in_quotes(known_name) + " is no array; declare it, VAR " + known_name + "[10]");
   } else if (size > 0 && index >= size) {
-    line_.error(name,
-                "the last element of " + in_quotes(known) + " is " + known + "[" + std::to_string(size - 1) + "]");
+    line_.error(name, "the last element of " + in_quotes(known_name) + " is " + known_name + "[" +
+                          std::to_string(size - 1) + "]");
   } else if (index >= 0) {
     place.variable += index;
   } else if (size > 0 && !line_.accept("[")) {
-    line_.error(name, "which element of " + in_quotes(known) + "? The first one is " + known + "[0]");
+    line_.error(name, "which element of " + in_quotes(known_name) + "? The first one is " + known_name + "[0]");
   } else if (size > 0) {
     place.size = size;
     const JobToken start = line_.peek();
@@ -180,6 +156,10 @@ ExpressionReader::Place ExpressionReader::place(int depth) {
     place.element.begin_at(start.column);
     if (!line_.failed() && !line_.accept("]")) {
       line_.error(line_.peek(), "expected ']', found " + JobLine::shown(line_.peek()));
+    }
+    if (const auto known = constant_of(place.element); !line_.failed() && known && !is_index(*known, size)) {
+      line_.error(start, "an array has no such element; the first one is [0], the last one of " +
+                             in_quotes(known_name) + " is [" + std::to_string(size - 1) + "]");
     }
   }
   return place;
@@ -225,6 +205,7 @@ Formula ExpressionReader::comparison(const char* what, int depth) {
 }
 
 Formula ExpressionReader::sum(const char* what, int depth) {
+  const JobToken start = line_.peek();
   Formula left = product(what, depth);
   while (!line_.failed()) {
     const bool signed_number = line_.peek().kind == JobToken::Kind::Number &&
@@ -236,159 +217,32 @@ Formula ExpressionReader::sum(const char* what, int depth) {
     } else {
       break;
     }
+    check_constant(left, start, line_);
   }
   return left;
 }
 
 Formula ExpressionReader::product(const char* what, int depth) {
+  const JobToken start = line_.peek();
   Formula left = operand(what, depth);
   bool more = true;
   while (more && !line_.failed()) {
     more = false;
     for (const Sign& sign : kProducts) {
       if (line_.accept(sign.text)) {
-        left = Formula::joined(std::move(left), operand("a number", depth), sign.op);
+        const JobToken second = line_.peek();
+        const Formula right = operand("a number", depth);
+        if (sign.op != FormulaOp::Multiply && constant_of(right) == 0.0) {
+          line_.error(second, "this divides by 0");
+        }
+        left = Formula::joined(std::move(left), right, sign.op);
+        check_constant(left, start, line_);
         more = true;
         break;
       }
     }
   }
   return left;
-}
-
-Formula ExpressionReader::operand(const char* what, int depth) {
-  constexpr int kMaxBrackets = 10;
-  if (depth > kMaxBrackets) {
-    line_.error(line_.peek(), "more than " + std::to_string(kMaxBrackets) + " brackets inside each other");
-    return {};
-  }
-  if (line_.accept("-")) {
-    Formula formula = operand("a number", depth + 1);
-    formula.push({FormulaOp::Negate, -1, 0});
-    return formula;
-  }
-  if (line_.accept("(")) {
-    return in_brackets(depth);
-  }
-  if (line_.peek().kind == JobToken::Kind::Number) {
-    double value = 0;
-    line_.numbers(1, &value, what);
-    return Formula::number(value);
-  }
-  if (line_.accept("ON")) {
-    return Formula::number(1);
-  }
-  if (line_.accept("OFF")) {
-    return Formula::number(0);
-  }
-  if (line_.peek().kind != JobToken::Kind::Word || is_reserved(line_.peek().text)) {
-    line_.error(line_.peek(), std::string("expected ") + what + ", found " + JobLine::shown(line_.peek()));
-    return {};
-  }
-  return line_.after().text == "(" ? function(depth) : named(depth);
-}
-
-// Parses the rest of "(...)".
-Formula ExpressionReader::in_brackets(int depth) {
-  Formula formula = disjunction("a value", depth + 1);
-  if (!line_.failed() && !line_.accept(")")) {
-    line_.error(line_.peek(), "expected ')', found " + JobLine::shown(line_.peek()));
-  }
-  return formula;
-}
-
-// Parses "SQRT(x)", "MAX(a, b, c)".
-Formula ExpressionReader::function(int depth) {
-  const JobToken name = line_.take();
-  line_.take();
-  for (const PlaceFunction& each : kPlaceFunctions) {
-    if (line_.is_word(name, each.name)) {
-      return coordinate(each.which);
-    }
-  }
-  const auto* const found = std::find_if(kFunctions.begin(), kFunctions.end(),
-                                         [&](const Function& each) { return line_.is_word(name, each.name); });
-  if (found == kFunctions.end()) {
-    std::string names;
-    for (const Function& each : kFunctions) {
-      names += std::string(each.name) + ", ";
-    }
-    for (const PlaceFunction& each : kPlaceFunctions) {
-      names += std::string(each.which == Coordinate::X ? "" : ", ") + each.name;
-    }
-    line_.error(name, "there is no function " + in_quotes(name.text) + "; known are " + names);
-    return {};
-  }
-  Formula formula = disjunction("a value", depth + 1);
-  int values = 1;
-  for (; !line_.failed() && line_.accept(","); ++values) {
-    formula = Formula::joined(std::move(formula), disjunction("a value", depth + 1), found->op);
-  }
-  if (found->values == 1) {
-    formula.push({found->op, -1, 0});
-  }
-  if (!line_.failed() && !line_.accept(")")) {
-    line_.error(line_.peek(), "expected ')', found " + JobLine::shown(line_.peek()));
-  } else if (!line_.failed() && (found->values == 0 ? values < 2 : values != found->values)) {
-    const char* const wanted = found->values == 0   ? "two values or more"
-                               : found->values == 1 ? "one value"
-                                                    : "two values";
-    line_.error(name, std::string(found->name) + " takes " + wanted + ", here " +
-                          (values == 1 ? "is 1" : "are " + std::to_string(values)));
-  }
-  return formula;
-}
-
-// Parses the rest of "X(P)", "DIST(P, HERE)".
-Formula ExpressionReader::coordinate(Coordinate which) {
-  const int place = which == Coordinate::Distance ? places_->read_difference() : places_->read();
-  if (!line_.failed() && !line_.accept(")")) {
-    line_.error(line_.peek(), "expected ')', found " + JobLine::shown(line_.peek()));
-  }
-  if (line_.failed()) {
-    return {};
-  }
-  Formula formula;
-  formula.push({FormulaOp::Coordinate, place, static_cast<double>(which)});
-  formula.also_reads(draft_.book().places[static_cast<std::size_t>(place)].reads);
-  return formula;
-}
-
-// Parses "n", "a[i]", "TIME", "TIPSPEED", "FOUND", "I4", "I4 ON", "I4 OFF"
-Formula ExpressionReader::named(int depth) {
-  Formula formula;
-  if (at_variable()) {
-    Place known = place(depth);
-    if (known.size > 0) {
-      formula = std::move(known.element);
-      formula.push({FormulaOp::Element, known.variable, static_cast<double>(known.size)});
-    } else {
-      formula = Formula::variable(known.variable);
-    }
-  } else if (line_.accept("TIME")) {
-    formula.push({FormulaOp::Time, -1, 0});
-  } else if (line_.accept("TIPSPEED")) {
-    formula.push({FormulaOp::TipSpeed, -1, 0});
-  } else if (line_.accept("FOUND")) {
-    formula.push({FormulaOp::Found, -1, 0});
-  } else {
-    const JobToken name = line_.peek();
-    formula.push({FormulaOp::Signal, signal("the name of a variable", Use::Read), 0});
-    if (line_.peek().text == "[") {
-      line_.error(line_.peek(), "the number of an element of a shared variable is written as " +
-                                    std::string(name.text) + "[3], not computed");
-    }
-  }
-  if (line_.failed()) {
-    return {};
-  }
-  if (line_.accept("ON")) {
-    return Formula::joined(std::move(formula), Formula::number(0), FormulaOp::NotEqual);
-  }
-  if (line_.accept("OFF")) {
-    return Formula::joined(std::move(formula), Formula::number(0), FormulaOp::Equal);
-  }
-  return formula;
 }
 
 }  // namespace indurop::robot

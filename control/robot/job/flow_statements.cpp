@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "control/robot/job/constants.h"
+
 namespace indurop::robot {
 
 namespace {
@@ -106,10 +108,10 @@ void FlowReader::range(JobQuestion& question) {
   if (line_.failed()) {
     return;
   }
-  const JobToken to = line_.peek();
   range.push_back(expressions_.formula("the largest answer"));
-  const bool written = from.kind == JobToken::Kind::Number && to.kind == JobToken::Kind::Number;
-  if (!line_.failed() && written && range[0].size() == 1 && range[1].size() == 1 && from.value > to.value) {
+  const auto lower = constant_of(range.front());
+  const auto upper = constant_of(range.back());
+  if (!line_.failed() && lower && upper && *lower > *upper) {
     line_.error(from, "no number is in this range; the smaller one comes first");
   }
   const JobToken step = line_.after();
@@ -148,7 +150,11 @@ void FlowReader::leave() {
 // Parses "RAISE 12", "RAISE 12, "there is no part""
 void FlowReader::raise() {
   draft_.add(Op::Raise);
+  const JobToken number = line_.peek();
   draft_.last().formula = expressions_.read("the number of the error");
+  if (const auto known = draft_.constant(draft_.last().formula); !line_.failed() && known && !(*known > 0)) {
+    line_.error(number, "RAISE takes the number of an error, above 0");
+  }
   if (!line_.failed() && line_.accept(",")) {
     draft_.last().mid = text();
   }

@@ -60,6 +60,9 @@ void MotionReader::search() {
   }
   if (!line_.failed()) {
     draft_.book().extras.back().has_to_find = true;
+    if (draft_.is_never(extras->until)) {
+      line_.error(start, "the condition of this SEARCH is never true, so it always fails; MOVL goes to a point");
+    }
   }
 }
 
@@ -210,7 +213,7 @@ void MotionReader::add(const Step& setting) {
   step.formula = setting.formula;
 }
 
-// Reads a number, or an expression, which `value` is then multiplied with.
+// Reads a number or an expression of numbers, or an expression, which `value` is then multiplied with.
 bool MotionReader::amount(Step& step, const char* what) {
   const JobToken& then = line_.after();
   const bool ends = then.kind == JobToken::Kind::End || then.text == "%" ||
@@ -220,6 +223,10 @@ bool MotionReader::amount(Step& step, const char* what) {
   }
   step.formula = expressions_.read(what);
   step.value = 1;
+  if (const auto known = draft_.constant(step.formula); known) {
+    step.value = *known;
+    step.formula = -1;
+  }
   return !line_.failed();
 }
 

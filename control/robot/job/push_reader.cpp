@@ -99,8 +99,24 @@ void PushReader::ramp(JobPush& push) {
   }
 }
 
+// `end`: the condition or the time that ends it, or TIMEOUT if there is neither.
+void PushReader::in_time(const JobPush& push, const JobToken& end) {
+  if (line_.failed() || !(push.timeout > 0)) {
+    return;
+  }
+  const double grows = push.way.ramp > 0 ? std::abs(push.way.torque) / push.way.ramp : 0;
+  if (push.until >= 0 && draft_.is_never(push.until)) {
+    line_.error(end, "this is never true, so the PUSH always fails at its TIMEOUT");
+  } else if (push.until < 0 && push.hold >= push.timeout) {
+    line_.error(end, "the axis is to push for as long as its TIMEOUT or longer, so it always fails");
+  } else if (push.until < 0 && push.hold + grows >= push.timeout) {
+    line_.error(end, "with this RAMP the whole torque comes too late for its TIMEOUT, so it always fails");
+  }
+}
+
 // What ends it, and whether the axis returns.
 void PushReader::ends(JobPush& push) {
+  const JobToken end = line_.after();
   if (line_.accept("UNTIL")) {
     push.until = expressions_.read("the condition that ends it");
   } else if (line_.accept("FOR")) {
@@ -108,6 +124,7 @@ void PushReader::ends(JobPush& push) {
   }
   if (!line_.failed() && line_.accept("TIMEOUT")) {
     line_.duration(push.timeout);
+    in_time(push, end);
   }
   push.stays = !line_.failed() && line_.accept("STAY");
 }

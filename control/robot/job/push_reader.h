@@ -20,6 +20,7 @@ class PushReader {
   void speed(JobPush& push);
   void ramp(JobPush& push);
   void ends(JobPush& push);
+  void in_time(const JobPush& push, const JobToken& end);
   [[nodiscard]] bool slides(const JobPush& push) const noexcept {
     return shape_.slides[static_cast<std::size_t>(push.way.axis)];
   }

@@ -6,6 +6,7 @@
 
 #include <map>
 
+#include "control/robot/files/check_pushes.h"
 #include "control/robot/job/job.h"
 #include "torque_cell.h"
 
@@ -231,6 +232,24 @@ TEST(Push_lines, Wrong_ones_are_named) {
   EXPECT_THAT(errors("PUSH AXIS 1 TORQUE 3 Nm SPEED 10 mm/s\n"), HasSubstr("expected deg/s, found 'mm'"));
   EXPECT_THAT(errors("PUSH AXIS 1 TORQUE 3 Nm SPEED 0 deg/s\n"), HasSubstr("at least 0.001"));
   EXPECT_THAT(errors("PUSH AXIS 1 TORQUE 3 Nm SPEED 5 deg/s RAMP 0 Nm/s\n"), HasSubstr("more than 0"));
+  EXPECT_THAT(errors("PUSH AXIS 1 TORQUE 3 Nm SPEED 5 deg/s FOR 5s TIMEOUT 5s\n"),
+              HasSubstr("a.job:1:43: error: the axis is to push for as long as its TIMEOUT or longer"));
+}
+
+// Of the URDF, else what the drive is rated for.
+TEST(Push_lines, More_torque_than_the_axis_has_is_named) {
+  const ArmModel model = arm_from_urdf("arm.urdf", heavy_cell_arm(most_torques()).urdf).value();
+  const ArmModel free = arm_from_urdf("arm.urdf", heavy_cell_arm(Joints::Zero()).urdf).value();
+  const ReadJobs read =
+      parse_jobs({{"a.job",
+                   "PUSH AXIS 2 TORQUE -249 Nm SPEED 5 deg/s\nPUSH AXIS 5 TORQUE 23 Nm SPEED 5 deg/s\n"
+                   "PUSH AXIS 2 TORQUE -401 Nm SPEED 5 deg/s\n"}});
+  EXPECT_EQ(base::to_text(check_pushes(read.book, model, kRatedTorque)),
+            "a.job:2:1: error: axis 5 pushes with at most 22 Nm (<limit effort> of the URDF)\n"
+            "a.job:3:1: error: axis 2 pushes with at most 250 Nm (<limit effort> of the URDF)\n");
+  EXPECT_EQ(base::to_text(check_pushes(read.book, free, kRatedTorque)),
+            "a.job:3:1: error: axis 2 pushes with at most 400 Nm (property rated_torque)\n");
+  EXPECT_EQ(base::to_text(check_pushes(read.book, model, {})), "");
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TryOutcome outcome_of(const std::vector<JobFile>& files) {
 }
 
 TEST(Try, A_wait_in_vain_and_a_value_that_is_none_go_on_behind_RECOVER) {
-  for (const char* line : {"WAIT I1 TIMEOUT 0.1s", "VAR k = 1 / I1", "SET O1 = 1 / 0"}) {
+  for (const char* line : {"WAIT I1 TIMEOUT 0.1s", "VAR k = 1 / I1", "SET O1 = 1 / I9"}) {
     const TryOutcome done = outcome_of(
         {{"main.job", std::string("TRY\n") + line + "\nSET n = 1\nRECOVER\nSET m = ERROR\nEND\nSET z = 1\n"}});
     EXPECT_EQ(done.ended.state, JobState::Ended) << line;
@@ -60,18 +60,18 @@ TEST(Try, The_innermost_one_counts_also_around_calls_and_loops_and_not_in_its_ow
   const TryOutcome inner = outcome_of(
       {{"main.job",
         "TRY\nLOOP 3\nTRY\nSET a = a + 1\nCALL bad\nRECOVER\nSET n = n + 1\nEND\nEND\nRECOVER\nSET m = 1\nEND\n"},
-       {"bad.job", "LOOP\nLOOP\nSET b = 1 / 0\nEND\nEND\n"}});
+       {"bad.job", "LOOP\nLOOP\nSET b = 1 / I9\nEND\nEND\n"}});
   EXPECT_EQ(inner.ended.state, JobState::Ended) << inner.ended.message;
   EXPECT_EQ(inner.values.at("a"), 3);
   EXPECT_EQ(inner.values.at("n"), 3);
   EXPECT_EQ(inner.values.count("m"), 0U);
   const TryOutcome again =
-      outcome_of({{"main.job", "TRY\nTRY\nSET a = 1 / 0\nRECOVER\nSET a = 1 / 0\nEND\nRECOVER\nSET m = 1\nEND\n"}});
+      outcome_of({{"main.job", "TRY\nTRY\nSET a = 1 / I9\nRECOVER\nSET a = 1 / I9\nEND\nRECOVER\nSET m = 1\nEND\n"}});
   EXPECT_EQ(again.ended.state, JobState::Ended) << again.ended.message;
   EXPECT_EQ(again.values.at("m"), 1);
-  const TryOutcome out = outcome_of({{"main.job", "TRY\nRECOVER\nSET m = 1\nEND\nSET a = 1 / 0\n"}});
+  const TryOutcome out = outcome_of({{"main.job", "TRY\nRECOVER\nSET m = 1\nEND\nSET a = 1 / I9\n"}});
   EXPECT_EQ(out.ended.state, JobState::Failed);
-  const TryOutcome recovering = outcome_of({{"main.job", "TRY\nSET a = 1 / 0\nRECOVER\nSET a = 1 / 0\nEND\n"}});
+  const TryOutcome recovering = outcome_of({{"main.job", "TRY\nSET a = 1 / I9\nRECOVER\nSET a = 1 / I9\nEND\n"}});
   EXPECT_EQ(recovering.ended.state, JobState::Failed);
 }
 

@@ -237,6 +237,14 @@ TEST(Press_lines, Wrong_ones_are_named) {
               HasSubstr("STIFFNESS is more than 0 and at most"));
   EXPECT_THAT(errors("PRESS 20, F ALONG Z MOST 60 N STIFFNESS 4 N\n"), HasSubstr("expected N/mm"));
   EXPECT_THAT(errors("VAR n\nPRESS n, F ALONG Z" + rest + "\n"), HasSubstr("none of the job"));
+  const std::string above =
+      ": error: PRESS fails above its MOST, which is less than this force; MOST has to leave some";
+  EXPECT_THAT(errors("PRESS 70, F ALONG Z" + rest + "\n"), HasSubstr("a.job:1:7" + above));
+  EXPECT_THAT(errors("PRESS 7 * -10, F ALONG Z" + rest + "\n"), HasSubstr("a.job:1:7" + above));
+  EXPECT_THAT(errors("PRESS 20, 80 ALONG Z" + rest + "\n"), HasSubstr("a.job:1:11" + above));
+  // Their sum is measured: 63.6 N.
+  EXPECT_THAT(errors("PRESS 45, F ALONG Z, 45, G ALONG X" + rest + "\n"), HasSubstr(above));
+  EXPECT_EQ(errors("PRESS 42, F ALONG Z, 42, G ALONG X" + rest + "\nPRESS OFF\nPRESS G + 70, F ALONG Z" + rest), "");
 }
 
 }  // namespace
