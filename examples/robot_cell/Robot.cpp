@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -34,6 +35,7 @@ std::unique_ptr<JobSignals> signals;
 std::unique_ptr<RobotSpace> space;
 robot::Inputs in;
 robot::Outputs out;
+std::uint32_t first_number = 0;  // of a question, for all starts another one
 
 // In a simulation no time passes while a module runs, and a thread in the background would end at an arbitrary time.
 bool time_stands() {
@@ -329,6 +331,10 @@ void start() {
   settings.plan_in_tick = time_stands();
   settings.learned = [](bool what) noexcept { return irp::learned(what ? 1 : 0) != 0; };
   settings.guarded = &irp::guarded;
+  if (!settings.plan_in_tick) {
+    first_number = std::random_device{}() >> 1;
+    settings.first_question = []() noexcept { return static_cast<std::uint32_t>(irp::learned(first_number)); };
+  }
   std::vector<std::string> errors;
   robot::take_properties([](const char* name) { return irp::property(name, ""); }, settings, errors);
   plcRobot = robot::Controller::load(settings, errors);

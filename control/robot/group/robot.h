@@ -27,7 +27,7 @@ struct Robot {
         axes(parts, table),
         singles(parts, table, &travel.seen()),
         follower(tool.places(), parts.joints),
-        job(parts.book) {}
+        job(parts.book, parts.settings.first_question) {}
   Robot(const Robot&) = delete;
   Robot& operator=(const Robot&) = delete;
 

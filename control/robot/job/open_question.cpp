@@ -43,7 +43,9 @@ StepValues::Flaw OpenQuestion::open(const Step& step, const StepValues& values, 
   }
   asked_.lower = range[0];
   asked_.upper = range[1];
-  asked_.number = ++count_;
+  last_ = last_ == 0 && first_ != nullptr ? first_() : last_ + 1;
+  last_ = last_ == 0 ? 1 : last_;  // 0 is none
+  asked_.number = last_;
   return {};
 }
 

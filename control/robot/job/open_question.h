@@ -15,8 +15,8 @@ namespace indurop::robot {
 
 class OpenQuestion {
  public:
-  // The book is borrowed.
-  explicit OpenQuestion(const JobBook& book) noexcept : book_(book) {}
+  // The book is borrowed. `first`: null: 1.
+  explicit OpenQuestion(const JobBook& book, FirstQuestion first = nullptr) noexcept : book_(book), first_(first) {}
 
   // What remains of the question while an interrupt is served.
   struct Asked {
@@ -53,7 +53,8 @@ class OpenQuestion {
 
   const JobBook& book_;
   Asked asked_;
-  std::uint32_t count_ = 0;  // of all questions so far
+  FirstQuestion first_;
+  std::uint32_t last_ = 0;  // number of the last question; 0: none was asked
 };
 
 }  // namespace indurop::robot

@@ -34,13 +34,14 @@ struct JobProgress {
 
 class JobRunner {
  public:
-  explicit JobRunner(const JobBook& book) noexcept
+  // `first_question`: as in Settings.
+  explicit JobRunner(const JobBook& book, FirstQuestion first_question = nullptr) noexcept
       : book_(book),
         jobs_(book),
         places_(book),
         values_(book, jobs_, places_),
         motions_(book, places_, values_),
-        question_(book),
+        question_(book, first_question),
         long_{Correcting(book), Riding(book), Pushing(book, values_, places_)},
         interrupts_(book) {}
   JobRunner(const JobRunner&) = delete;

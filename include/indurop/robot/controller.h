@@ -340,6 +340,7 @@ struct Settings {
   // Calls work(with) on a thread of the controller. Returns false if it crashed, with the reason in `why`
   // (irp::guarded()). Null: a crash ends the process.
   bool (*guarded)(void (*work)(void*) noexcept, void* with, char* why, std::size_t size) noexcept = nullptr;
+  FirstQuestion first_question = nullptr;
   // Stop category of an emergency stop: 0 or 1 (IEC 60204-1).
   StopCategory emergency_category = StopCategory::Category1;
 };

@@ -14,6 +14,10 @@ namespace indurop::robot {
 inline constexpr std::size_t kMaxChoices = 7;      // of one question
 inline constexpr std::size_t kMaxChoiceText = 31;  // bytes
 
+// Returns the number of the first question of a robot task, so that an answer which is late cannot meet a question of a
+// later start. A replay takes it from the recording (irp::learned()). Real-time safe. Null: 1.
+using FirstQuestion = std::uint32_t (*)() noexcept;
+
 // An answer, as ROBOT_ANSWER. It is rejected unless its question is open and has this answer.
 struct AnswerRequest {
   std::uint32_t number = 0;    // differs from last time: a new answer
@@ -25,7 +29,7 @@ struct AnswerRequest {
 
 // The question that is open, as ROBOT_QUESTION. Texts are valid until the next step.
 struct QuestionReport {
-  std::uint32_t number = 0;  // counts from the start of the task; 0: no question is open
+  std::uint32_t number = 0;  // counts on from Settings::first_question; 0: no question is open
   const char* text = "";
   std::size_t count = 0;  // of choices; 0: the question asks for a number
   std::array<const char*, kMaxChoices> choices{"", "", "", "", "", "", ""};

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "group_cell.h"
+#include "job_world.h"
 #include "robot_fixture.h"
 
 namespace indurop::robot {
@@ -229,6 +230,28 @@ class Dialogue {
   int interrupted_ = 0;
   bool disturbed_ = false;
 };
+
+TEST(Questions, An_answer_to_an_earlier_start_meets_none_of_the_next_one) {
+  const ReadJobs read = parse_jobs({{"a.job", "LOOP 2\nASK n = \"n\" 1 TO 9\nSET O = n\nEND\n"}});
+  World world(read.book.signals);
+  JobRunner before(read.book, []() noexcept { return 7U; });
+  JobRunner after(read.book, []() noexcept { return 4'294'967'295U; });
+  QuestionReport asked;
+  for (JobRunner* const sut : {&before, &after}) {
+    sut->start(0);
+    sut->step(kPeriod, world, world);
+    ASSERT_NE(sut->open_question(), nullptr);
+    sut->open_question()->report(asked);
+    EXPECT_EQ(asked.number, sut == &before ? 7U : 4'294'967'295U);
+  }
+  char why[120] = "";
+  EXPECT_EQ(after.open_question()->answer(7, 3, why), ErrorCode::State);
+  EXPECT_EQ(after.open_question()->answer(asked.number, 3, why), ErrorCode::Ok);
+  after.step(kPeriod, world, world);
+  ASSERT_NE(after.open_question(), nullptr);
+  after.open_question()->report(asked);
+  EXPECT_EQ(asked.number, 1U) << "0 is no number";
+}
 
 TEST(Random_questions, Are_answered_as_the_model_says) {
   const int first = number_of("INDUROP_ROBOT_SEED", 1);
