@@ -154,7 +154,7 @@ void CommandPress::step() noexcept {
 void CommandPress::end(ErrorCode code) noexcept {
   robot_.table.end(ticket_, code);
   ticket_ = CommandTable::kNone;
-  robot_.states.set_press(GroupStates::Press::Off);
+  robot_.states.end_press(code != ErrorCode::Ok);
 }
 
 void CommandPress::fail(const char* why) noexcept {

@@ -73,6 +73,9 @@ void Resuming::say_how_far(const Joints& to) noexcept {
 
 ErrorCode Resuming::resume() noexcept {
   if (!aside_) {
+    if (robot_.states.press_stopped()) {
+      robot_.job.set_message("a RobotPress that was stopped cannot be resumed: set its Execute to FALSE, then to TRUE");
+    }
     return ErrorCode::NoResume;
   }
   if (const ErrorCode code = group_.may_move(); code != ErrorCode::Ok || !robot_.states.is(GroupState::Standby)) {

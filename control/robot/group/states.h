@@ -41,6 +41,7 @@ class GroupStates {
   void move(bool by_job = false) noexcept {
     state_ = GroupState::Moving;
     by_job_ = by_job_ || by_job;
+    press_stopped_ = false;
   }
   void home() noexcept { state_ = GroupState::Homing; }
   void stop() noexcept { state_ = GroupState::Stopping; }
@@ -84,6 +85,12 @@ class GroupStates {
   [[nodiscard]] bool pressing() const noexcept { return press_ != Press::Off; }
   [[nodiscard]] Press press() const noexcept { return press_; }
   void set_press(Press press) noexcept { press_ = press; }
+  void end_press(bool by_stop) noexcept {
+    press_ = Press::Off;
+    press_stopped_ = by_stop;
+  }
+  // Returns whether the last motion of the group was a press that a stop has ended: nothing can resume it.
+  [[nodiscard]] bool press_stopped() const noexcept { return press_stopped_; }
 
   // The emergency stop input.
   [[nodiscard]] bool emergency() const noexcept { return emergency_; }
@@ -99,6 +106,7 @@ class GroupStates {
   bool by_job_ = false;
   bool emergency_ = false;
   Press press_ = Press::Off;
+  bool press_stopped_ = false;
 };
 
 }  // namespace indurop::robot

@@ -296,6 +296,11 @@ TEST_F(Press_command, Whatever_ends_it_keeps_the_limits_and_the_next_one_begins)
         EXPECT_EQ(sut->state(path), CommandState::Aborted);
       }
       EXPECT_GE(shift()[2], -10);
+      if (kind == 2) {
+        EXPECT_FALSE(cell().serve(Service::JobResume));
+        EXPECT_EQ(cell().out.error, ErrorCode::NoResume);
+        EXPECT_THAT(cell().out.job.message, testing::HasSubstr("a RobotPress that was stopped cannot be resumed"));
+      }
     }
   }
 }
