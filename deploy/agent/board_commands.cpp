@@ -165,14 +165,14 @@ CommandReply BoardCommands::carry_out(const Command& command, const std::string&
     }
     return reply(command, Outcome::Refused, why);
   }
-  if (const std::string unnoted = is_recording(command.action) ? "" : note_command(command, verdict.user, "begun");
-      !unnoted.empty()) {
+  if (const std::string unlogged = is_recording(command.action) ? "" : note_command(command, verdict.user, "begun");
+      !unlogged.empty()) {
     const bool stop = is_stop(command.action);
-    log_.warning("a command from {} {} it cannot be noted down in {}", command.host,
-                 stop ? "is a stop and carried out, although" : "was refused, because", unnoted);
+    log_.warning("a command from {} {} it cannot be logged in {}", command.host,
+                 stop ? "is a stop and carried out, although" : "was refused, because", unlogged);
     if (!stop) {
       return reply(command, Outcome::Refused,
-                   fmt::format("nothing was changed, because it cannot be noted down in {}", unnoted));
+                   fmt::format("nothing was changed, because it cannot be logged in {}", unlogged));
     }
   }
   deadline_ = now + kPatience;

@@ -108,7 +108,7 @@ TEST_F(RemoteUsers, Change_nothing_that_the_audit_log_cannot_take) {
     const Outcome full =
         deployer ? indurop({"set", "torque=2", "--board", board("a")}) : as("anna", {"set", "torque=2"});
     EXPECT_EQ(full.code, 1) << full.out;
-    EXPECT_THAT(full.err, HasSubstr("cannot be noted down"));
+    EXPECT_THAT(full.err, HasSubstr("cannot be logged"));
     EXPECT_THAT(full.err, HasSubstr("No space left on device"));
   }
   EXPECT_EQ(indurop({"stop", "@" + board("a")}).code, 0) << "a full disk does not prevent a stop";

@@ -184,7 +184,7 @@ def test_answers_a_request_without_a_body_once(setting):
     assert answer.count(b"HTTP/1.1") == 1 and answer.startswith(b"HTTP/1.1 404"), answer
 
 
-def test_does_nothing_that_it_cannot_note_down(setting):
+def test_does_nothing_that_it_cannot_log(setting):
     setting.start_node()
     server = setting.start_server("--write", "--token-file", setting.tokens, "--audit", "/proc/nowhere/audit.jsonl")
     answer = server.post(f"{API}/boards/{setting.node}/set", {"values": {"gain": 5}})

@@ -38,7 +38,7 @@ SITUATIONS = {
     "a fuzzed WebSocket": ("situations_test.py", "test_a_fuzzed_stream_writes_nothing_and_disturbs_no_client"),
     "fuzzed orders": ("situations_test.py", "test_fuzzed_orders_write_nothing_out_of_range"),
     "memory of a node taken away": ("stream_test.py", "test_a_node_whose_memory_is_taken_away"),
-    "a full disk, so that nothing can be noted": ("http_test.py", "test_does_nothing_that_it_cannot_note_down"),
+    "a full disk, so that nothing can be logged": ("http_test.py", "test_does_nothing_that_it_cannot_log"),
     "a client that holds a force is lost": ("http_test.py", "test_a_lease_ends_with_its_client"),
     "pointer, page or server lost while a robot moves": (
         "../web/page.mjs", "The robot is jogged while a button is held down, and stops when the pointer, the page or the server is lost"),

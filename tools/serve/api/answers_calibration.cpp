@@ -119,8 +119,8 @@ Reply change(Api& api, const Call& call, const char* action, Act act) {
   if (!files) {
     return write.failed(status::kConflict, files.error().text);
   }
-  if (const auto unnoted = write.begin({{}, true})) {
-    return write.failed(*unnoted);
+  if (const auto unlogged = write.begin({{}, true})) {
+    return write.failed(*unlogged);
   }
   const Calibration now = act(**found, files->names, chosen->order, *wanted);
   if (const std::string problem = problem_of(now); !problem.empty()) {

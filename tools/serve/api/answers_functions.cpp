@@ -149,8 +149,8 @@ Reply call_function(Api& api, const Call& call) {
     return write.failed(status::kUnavailable,
                         fmt::format("at most {} calls a second; try again later", CallPace::kMostInASecond));
   }
-  if (const auto unnoted = write.begin({{}, true})) {
-    return write.failed(*unnoted);
+  if (const auto unlogged = write.begin({{}, true})) {
+    return write.failed(*unlogged);
   }
   const auto result = operate::call((*found)->name(), *store, *prepared, write.who());
   if (!result) {

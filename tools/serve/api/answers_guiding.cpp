@@ -93,8 +93,8 @@ Reply write_guided_path(Api& api, const Call& call) {
   if (!files) {
     return write.failed(status::kConflict, files.error().text);
   }
-  if (const auto unnoted = write.begin({{}, true})) {
-    return write.failed(*unnoted);
+  if (const auto unlogged = write.begin({{}, true})) {
+    return write.failed(*unlogged);
   }
   wanted->path.tool = path->view().tool;
   const robot::TaughtPath taught = robot::teach_path(files->names, wanted->path, path->places());

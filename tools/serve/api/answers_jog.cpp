@@ -56,8 +56,8 @@ Reply begin_jog(Api& api, const Call& call) {
   if (const auto locked = operate::refusal((*found)->name(), vars::Act::Command)) {
     return write.failed(*locked);
   }
-  if (const auto unnoted = write.begin({{robot.empty() ? "ROBOT_JOG" : robot + "::ROBOT_JOG"}})) {
-    return write.failed(*unnoted);
+  if (const auto unlogged = write.begin({{robot.empty() ? "ROBOT_JOG" : robot + "::ROBOT_JOG"}})) {
+    return write.failed(*unlogged);
   }
   auto begun = api.jogs().begin((*found)->name(), robot, call.who, call.request->from, jog);
   if (!begun) {

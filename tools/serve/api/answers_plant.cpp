@@ -84,8 +84,8 @@ Reply plant_rollback(Api& api, const Call& call) {
     return write.failed(status::kBadRequest, "that is no name of a plant");
   }
   write.about(id, reason);
-  if (const auto unnoted = write.begin({{}, true})) {
-    return write.failed(*unnoted);
+  if (const auto unlogged = write.begin({{}, true})) {
+    return write.failed(*unlogged);
   }
   const Printed printed = roll_back(*call.link, id, plant);
   if (printed.code != kOk) {

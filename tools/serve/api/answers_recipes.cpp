@@ -97,8 +97,8 @@ Reply save_recipe(Api& api, const Call& call) {
   if (const auto taken = tools::take_values(*store, wanted->names, recipe); !taken) {
     return write.failed(Refused{status::kWrongValue, taken.error()});
   }
-  if (const auto unnoted = write.begin({names_of(recipe)})) {
-    return write.failed(*unnoted);
+  if (const auto unlogged = write.begin({names_of(recipe)})) {
+    return write.failed(*unlogged);
   }
   if (const auto saved = tools::write_recipe((*found)->name(), recipe); !saved) {
     return write.failed(status::kFailed, saved.error().text);
@@ -128,8 +128,8 @@ Reply load_recipe(Api& api, const Call& call) {
   if (!store) {
     return write.failed(store.error());
   }
-  if (const auto unnoted = write.begin({names_of(*one)})) {
-    return write.failed(*unnoted);
+  if (const auto unlogged = write.begin({names_of(*one)})) {
+    return write.failed(*unlogged);
   }
   const auto loaded = tools::load_values((*found)->name(), *store, *one, write.who());
   if (!loaded) {
@@ -154,8 +154,8 @@ Reply remove_recipe(Api& api, const Call& call) {
   if (!one) {
     return write.failed(status::kNotFound, one.error().text);
   }
-  if (const auto unnoted = write.begin({names_of(*one)})) {
-    return write.failed(*unnoted);
+  if (const auto unlogged = write.begin({names_of(*one)})) {
+    return write.failed(*unlogged);
   }
   if (const auto removed = tools::remove_recipe((*found)->name(), recipe_in(call)); !removed) {
     return write.failed(status::kFailed, removed.error().text);

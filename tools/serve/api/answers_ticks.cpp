@@ -94,8 +94,8 @@ Reply replay_recording(Api& api, const Call& call) {
   }
   base::read(*json, "board", board);
   write.about(fmt::format("{} to tick {}", file->name, tick), "");
-  if (const auto unnoted = write.begin({{}, true})) {
-    return write.failed(*unnoted);
+  if (const auto unlogged = write.begin({{}, true})) {
+    return write.failed(*unlogged);
   }
   const std::string node = tools::remote_store_prefix() + "replay";  // it is no board
   auto replayed = tools::replay_tick(file->path, board, {}, tick, node);

@@ -106,7 +106,7 @@ Reply end_sessions(Api& api, const Call& call) {
     return refusal(status::kNotFound, fmt::format("there is no user '{}'", user));
   }
   if (const std::string problem = note(api, call, call.who, "end sessions", user, "begun"); !problem.empty()) {
-    return refusal(status::kFailed, fmt::format("no session was ended, because it cannot be noted down in {}: {}",
+    return refusal(status::kFailed, fmt::format("no session was ended, because it cannot be logged in {}: {}",
                                                 api.audit().file().string(), problem));
   }
   const std::size_t ended = api.users().end_sessions(user);

@@ -91,16 +91,16 @@ std::optional<Refused> Write::begin(const Affected& affected) {
   if (problem.empty()) {
     return std::nullopt;
   }
-  unnoted_ = fmt::format("cannot be noted down in {}: {}", api_->audit().file().string(), problem);
+  unlogged_ = fmt::format("cannot be logged in {}: {}", api_->audit().file().string(), problem);
   if (affected.stop) {
     return std::nullopt;
   }
-  return Refused{status::kFailed, {fmt::format("nothing was written, because it {}", unnoted_)}};
+  return Refused{status::kFailed, {fmt::format("nothing was written, because it {}", unlogged_)}};
 }
 
 Reply Write::done(base::Json body) {
-  if (!unnoted_.empty()) {
-    body["not_logged"] = unnoted_;
+  if (!unlogged_.empty()) {
+    body["not_logged"] = unlogged_;
   }
   entry_.outcome = "done";
   static_cast<void>(api_->audit().note(entry_));  // its begin is logged already

@@ -27,8 +27,8 @@ class Write final : public ChangeNote {
   Reply failed(const Refused& refused);
   // Fails because store/operate/ refused it.
   Reply failed(const operate::Refusal& refusal);
-  // A write is not done if its client has lost the right while the request waited, or if it cannot be logged, except for
-  // a stop.
+  // A write is not done if its client has lost the right while the request waited, or if it cannot be logged, except
+  // for a stop.
   std::optional<Refused> begin(const Affected& affected) override;
   // `body` says of a stop that it could not be logged.
   Reply done(base::Json body);
@@ -39,7 +39,7 @@ class Write final : public ChangeNote {
   Api* api_;
   Request request_;  // without its body
   AuditEntry entry_;
-  std::string unnoted_;  // why its begin could not be logged
+  std::string unlogged_;  // why its begin could not be logged
 };
 
 }  // namespace indurop::serve

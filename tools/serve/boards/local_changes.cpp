@@ -109,8 +109,8 @@ Board::Done LocalBoard::set(const WriteRequest& request, ChangeNote& note) {
   if (const auto locked = operate::refusal_to_set(name(), *values)) {
     return refused(*locked);
   }
-  if (auto unnoted = note.begin({names_of(*values)})) {
-    return std::move(*unnoted);
+  if (auto unlogged = note.begin({names_of(*values)})) {
+    return std::move(*unlogged);
   }
   if (const auto done = operate::set(name(), *store, *values, note.who()); !done) {
     return refused(done.error());
@@ -133,8 +133,8 @@ Board::Done LocalBoard::force(const WriteRequest& request, ChangeNote& note, Lea
   if (request.lease && store->header().virtual_ns.load() != 0) {
     return Refused{status::kConflict, {"the time of a simulation is not the one that a lease goes by: use for_ns"}};
   }
-  if (auto unnoted = note.begin({names_of(*values)})) {
-    return std::move(*unnoted);
+  if (auto unlogged = note.begin({names_of(*values)})) {
+    return std::move(*unlogged);
   }
   auto held = operate::hold(name(), *store, *values, request.lease ? LeaseDesk::kLeaseNs : request.for_ns,
                             request.lease ? operate::Ends::UnlessRenewed : operate::Ends::AtTime, note.who());
@@ -162,8 +162,8 @@ Board::Done LocalBoard::release(const WriteRequest& request, ChangeNote& note) {
   if (const auto locked = operate::refusal(name(), vars::Act::Force)) {
     return refused(*locked);
   }
-  if (auto unnoted = note.begin({names_of(*items), request.all})) {
-    return std::move(*unnoted);
+  if (auto unlogged = note.begin({names_of(*items), request.all})) {
+    return std::move(*unlogged);
   }
   const auto released = request.all ? operate::release_all(name(), *store, note.who())
                                     : operate::release(name(), *store, *items, note.who());
@@ -174,8 +174,8 @@ Board::Done LocalBoard::release(const WriteRequest& request, ChangeNote& note) {
 }
 
 Board::Done LocalBoard::set_lock(vars::WriteLock lock, ChangeNote& note) {
-  if (auto unnoted = note.begin({{}, true})) {
-    return std::move(*unnoted);
+  if (auto unlogged = note.begin({{}, true})) {
+    return std::move(*unlogged);
   }
   if (const auto locked = operate::set_lock(name(), lock, note.who()); !locked) {
     return refused(locked.error());
@@ -196,8 +196,8 @@ Board::Done LocalBoard::command(scheduler::ModuleCommand what, const std::string
   if (const auto locked = operate::refusal(name(), vars::Act::Command)) {
     return refused(*locked);
   }
-  if (auto unnoted = note.begin({{}, true, what == scheduler::ModuleCommand::Stop})) {
-    return std::move(*unnoted);
+  if (auto unlogged = note.begin({{}, true, what == scheduler::ModuleCommand::Stop})) {
+    return std::move(*unlogged);
   }
   const auto done = tools::command_module(name(), what, module, kLongestCommandNs, note.who());
   if (!done) {
@@ -209,8 +209,8 @@ Board::Done LocalBoard::command(scheduler::ModuleCommand what, const std::string
 }
 
 Board::Done LocalBoard::carry_out(const alarms::AlarmOrder& order, ChangeNote& note) {
-  if (auto unnoted = note.begin({order.names, order.all})) {
-    return std::move(*unnoted);
+  if (auto unlogged = note.begin({order.names, order.all})) {
+    return std::move(*unlogged);
   }
   alarms::AlarmJournal journal(name());
   const auto done = alarms::carry_out(journal, declared_alarms(), order);
