@@ -139,10 +139,10 @@ class Past:
         self.cache.clear()
 
     def cut(self, dice: random.Random):
-        """What a loss of power leaves: the bytes on the disk, how many sectors were in the cache and how many of them reached it."""
+        """What a loss of power leaves: the bytes on the disk, how many sectors were in the cache, and which of them reached it."""
         share = dice.choice((0, 1, dice.random()))
         kept = [sector for sector in sorted(self.cache) if dice.random() < share]
         left = bytearray(self.safe)
         for sector in kept:
             left[sector * SECTOR:(sector + 1) * SECTOR] = self.cache[sector]
-        return left, len(self.cache), len(kept)
+        return left, len(self.cache), kept

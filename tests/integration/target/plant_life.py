@@ -62,12 +62,17 @@ class Plant:
         self.first = options.first
         self.state = None
 
-    def power_on(self, file):
+    def power_on(self, file, may_repair):
         """Mounts the disk, and reads the recordings before the boards start."""
         for words in ("ip link set lo up multicast on", "ip route add 224.0.0.0/4 dev lo", "mount -t tmpfs tmp /dev/shm"):
             subprocess.run(words.split(), check=True)
         self.disk.mkdir()
-        mounted = subprocess.run(["mount", "-o", "loop", file, self.disk], capture_output=True, text=True, check=False)
+        mount = ["mount", "-o", "loop", file, self.disk]
+        mounted = subprocess.run(mount, capture_output=True, text=True, check=False)
+        if mounted.returncode != 0 and may_repair:
+            repaired = subprocess.run(["e2fsck", "-y", file], capture_output=True, text=True, check=False)
+            say("repaired", repaired.stdout)
+            mounted = subprocess.run(mount, capture_output=True, text=True, check=False)
         if mounted.returncode != 0:
             say("wrong", f"the file system cannot be mounted: {mounted.stderr}")
             sys.exit(1)
@@ -146,12 +151,13 @@ def main():
     parser.add_argument("work", type=pathlib.Path, help="a folder with the manifest plant.xml, outside of the disk")
     parser.add_argument("--boards", type=int, required=True)
     parser.add_argument("--live", action="store_true")
+    parser.add_argument("--repair", action="store_true", help="repair the file system if it cannot be mounted")
     parser.add_argument("--release", type=pathlib.Path, help="the installation of which releases are made")
     parser.add_argument("--first", type=int, default=0, help="number of the first deployment and recording")
     options = parser.parse_args()
     options.manifest = options.work / "plant.xml"
     plant = Plant(options)
-    plant.power_on(options.disk)
+    plant.power_on(options.disk, options.repair)
     plant.start_agents()
     plant.wait_for_boards()
     if options.live:

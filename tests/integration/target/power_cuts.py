@@ -32,6 +32,9 @@ BACK_WITHIN = 120  # seconds; the host may be busy
 DISK = 384 << 20
 BLOCK = 64 << 10
 OLDEST = 3  # seconds: retained values are saved each second
+# ext4 writes its superblock in two sectors when it is mounted. Of a disk that keeps one of them, only e2fsck can make a file system
+# again, as at a boot with fsck.repair=yes.
+SUPERBLOCK = {2, 3}
 UNSEEN = 100  # runs of which nothing was heard yet
 BOARD = """<board name="{name}"><module><name>main</name><filename>{modules}/target_{name}.so</filename>
 <moduletype>thread</moduletype><operationtype>periodic</operationtype><period>20ms</period><budget>60s</budget><priority>1</priority>
@@ -146,6 +149,8 @@ class Judge:
                 wrong += self._resumed(known, "deployment", words[1])
             elif words[0] == "releases":
                 wrong += self._resumed(known, "release", words[1])
+            elif words[0] == "repaired":
+                self.count["superblocks repaired"] += 1
             elif words[0] == "empty" and known.committed["deployment"]:
                 wrong.append(f"nothing is deployed, {known.committed['deployment']} was committed")
         self.findings += [f"{cut}: {text}" for text in wrong]
@@ -170,6 +175,10 @@ class Judge:
         return [] if number in may else [f"{kind} {number} runs, {may[0]} was committed, {may[1]} was under way"]
 
 
+def repair_if(torn):
+    return ["--repair"] if torn else []
+
+
 def write_sparse(file, content):
     with file.open("wb") as out:
         out.truncate(len(content))
@@ -190,6 +199,7 @@ class Story:
         self.judge = Judge()
         self.known = Knowledge()
         self.image = self._empty_disk()
+        self.torn = False  # the superblock of this image
         self.cuts = 0
 
     def _empty_disk(self):
@@ -213,7 +223,7 @@ class Story:
                     raise RuntimeError("nbdfuse has ended")
                 time.sleep(0.05)
             machine = Machine(self.options, folder / "fuse/nbd", folder / "work", "--live", "--release", str(self.options.release),
-                              "--first", str(number * 1000))
+                              "--first", str(number * 1000), *repair_if(self.torn))
             end = time.monotonic() + BACK_WITHIN
             while not machine.has_said("releases", "empty") and machine.process.poll() is None and time.monotonic() < end:
                 time.sleep(0.1)
@@ -242,22 +252,23 @@ class Story:
             for place in sorted(self.dice.randrange(len(log)) for _ in range(cuts)):
                 past.go_to(place)
                 left, cached, kept = past.cut(self.dice)
+                torn = len(SUPERBLOCK.intersection(kept)) == 1
                 known = self.known.after(lines, log[place][0])
                 self.cuts += 1
-                self.judge.count["sectors lost"] += cached - kept
-                name = f"cut {self.cuts}, {kept} of {cached} sectors kept"
+                self.judge.count["sectors lost"] += cached - len(kept)
+                name = f"cut {self.cuts}, {len(kept)} of {cached} sectors kept"
                 write_sparse(self.folder / f"{self.cuts}.disk", left)
-                waiting.append(pool.submit(self._check, self.cuts, name, known))
+                waiting.append(pool.submit(self._check, self.cuts, name, known, torn))
             for one in waiting:
                 one.result()
-        self.image, self.known = left, known
+        self.image, self.known, self.torn = left, known, torn
 
-    def _check(self, number, name, known):
+    def _check(self, number, name, known, torn):
         file = self.folder / f"{number}.disk"
         if self.options.keep:
             subprocess.run(["cp", "--sparse=always", file, self.options.keep], check=True)
         work = self.folder / f"work{number}"
-        machine = Machine(self.options, file, work)
+        machine = Machine(self.options, file, work, *repair_if(torn))
         try:
             is_back = machine.process.wait(BACK_WITHIN) == 0
         except subprocess.TimeoutExpired:
