@@ -37,8 +37,8 @@ base::Json json_of(const StateReport& report) {
 // What one of the two parts of the folder keeps.
 struct StateCheck::Kept {
   DeploymentFiles files;
-  std::size_t most;
-  const char* kind;
+  std::size_t most = 0;
+  const char* kind = "";
   std::vector<std::string>& ids;
 };
 
