@@ -15,13 +15,13 @@ class EnablingSwitch {
 
   // Called once per period of `period` seconds. Returns whether the switch is held. `beat` 0: the switch is local and
   // its contact alone counts. Otherwise `beat` has to change within kPatience; once it has not, the switch has to be
-  // released before it counts again. The same applies to a switch that is already pressed at the first call. Real-time
-  // safe.
+  // released before it counts again. The same applies to any switch that is already pressed at the first call, so that
+  // nothing moves because the robot task starts. Real-time safe.
   bool holds(bool pressed, std::uint32_t beat, double period) noexcept {
     const bool first = !last_;
     since_ = first || beat != *last_ ? 0 : since_ + period;
     last_ = beat;
-    lapsed_ = pressed && beat != 0 && (lapsed_ || first || since_ > kPatience + period / 2);
+    lapsed_ = pressed && (lapsed_ || first || (beat != 0 && since_ > kPatience + period / 2));
     return pressed && !lapsed_;
   }
 

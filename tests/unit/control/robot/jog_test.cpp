@@ -184,6 +184,17 @@ TEST(Jog, A_switch_whose_beat_stops_counts_as_released_until_it_was_released) {
   }
 }
 
+TEST(Jog, A_switch_that_is_pressed_from_the_beginning_has_to_be_released_first) {
+  constexpr double kStep = 0.01;
+  EnablingSwitch sut;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(sut.holds(true, 0, kStep));
+  }
+  EXPECT_FALSE(sut.holds(false, 0, kStep));
+  EXPECT_TRUE(sut.holds(true, 0, kStep));
+  EXPECT_TRUE(sut.holds(true, 0, 10)) << "a local switch needs no beat";
+}
+
 TEST(Jog, Rests_when_the_beat_of_a_far_hand_stops) {
   Cell cell;
   ASSERT_TRUE(cell.serve(Service::GroupEnable));
