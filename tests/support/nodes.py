@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Nodes that tests start: their shared memory is removed when the test ends, however it ends."""
+"""Nodes that tests start: they end, and their shared memory is removed, when the test ends, however it ends."""
 
 import atexit
 import os
@@ -19,3 +19,13 @@ def new_node(indurop, prefix):
     node = f"{prefix}{os.getpid()}"
     remove_at_exit(indurop, node)
     return node
+
+
+def end_at_exit(child):
+    """A program that a failed test would leave, which keeps the output of the test open. Returns it."""
+    def end():
+        if child.poll() is None:
+            child.kill()
+            child.wait()
+    atexit.register(end)
+    return child

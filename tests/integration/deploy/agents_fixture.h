@@ -99,7 +99,12 @@ class AgentsTest : public PlantTest {
                  const std::vector<std::string>& before = {}) {
     std::vector<std::string> words{"deploy", file, "--health", "500ms", "--timeout", "10s", "-o", "json"};
     words.insert(words.end(), more.begin(), more.end());
-    return indurop(words, before);
+    Outcome done = indurop(words, before);
+    // A busy machine may deliver the order after its tick. All boards run what they ran before then.
+    for (int i = 0; i < 2 && done.err.find("it missed the tick of the exchange") != std::string::npos; ++i) {
+      done = indurop(words, before);
+    }
+    return done;
   }
   // What the board says of itself; null if it is not heard.
   Json report(const std::string& name, const std::vector<std::string>& before = {}) {

@@ -23,6 +23,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from exchange_test import Cell, returned_late, versions_of  # noqa: E402
 from mcap_file import McapFile  # noqa: E402
+from nodes import end_at_exit  # noqa: E402
 
 VERSIONS = ["gains_kept", "gains_kept", "other", "same", "back"]
 CLOCKS_NS = 200_000  # a tenth of the period of press
@@ -99,24 +100,28 @@ def judge_piece(cell, piece, whole, clocks_ns=0):
     return now is not None
 
 
-def exchange(cell, what):
+def exchange(cell, what, has_previous):
+    """`has_previous`: whether a version is in memory to which the module can return. Returns whether there is one now."""
     while True:
         done = (cell.indurop("reload", "press", "--back", "--node", cell.name) if what == "back" else
                 cell.reload(what, "--health", "0s"))
-        if not returned_late(done.returncode, done.stderr):
-            assert done.returncode == 0 or "runs already" in done.stderr, (what, done.stdout, done.stderr)
-            return
+        if returned_late(done.returncode, done.stderr):
+            continue
+        refusal = "no previous version" if what == "back" and not has_previous else "runs already"
+        assert done.returncode == 0 or refusal in done.stderr, (what, has_previous, done.stdout, done.stderr)
+        return what != "back" if done.returncode == 0 else has_previous
 
 
 def record(cell, choice, recording, parts):
     """A recording of the whole run, and one in parts. Returns the ticks of the exchanges."""
     cell.install("same")
     live = cell.start("--record", recording)
-    split = subprocess.Popen([cell.bin / "indurop", "record", "-q", "--past", "--split", f"{choice.randrange(600, 1500)}ms", "--node",
-                              cell.name, "-o", parts], env=cell.environment)
+    split = end_at_exit(subprocess.Popen([cell.bin / "indurop", "record", "-q", "--past", "--split", f"{choice.randrange(600, 1500)}ms",
+                                          "--node", cell.name, "-o", parts], env=cell.environment))
+    has_previous = False
     for what in ["gains_kept", "back", "gains_kept", *choice.choices(VERSIONS, k=choice.randrange(0, 3))]:
         time.sleep(choice.uniform(0.3, 0.9))
-        exchange(cell, what)
+        has_previous = exchange(cell, what, has_previous)
     time.sleep(1.2)  # there are two keyframes a second
     split.send_signal(signal.SIGINT)
     split.wait()
@@ -215,12 +220,12 @@ def a_variable_has_its_name_whatever_type_has_it_now(cell):
 
     recording, parts = cell.folder / "types.mcap", cell.folder / "types.part.mcap"
     install("old")
-    live = subprocess.Popen([cell.bin / "indurop-node", "-q", "--node", cell.name, "--record", recording, cell.configuration],
-                            env=cell.environment, stdout=subprocess.DEVNULL)
+    live = end_at_exit(subprocess.Popen([cell.bin / "indurop-node", "-q", "--node", cell.name, "--record", recording,
+                                         cell.configuration], env=cell.environment, stdout=subprocess.DEVNULL))
     while cell.indurop("get", "nt_layout::axis.x", "--node", cell.name).returncode != 0:
         assert live.poll() is None
-    split = subprocess.Popen([cell.bin / "indurop", "record", "-q", "--split", "400ms", "--node", cell.name, "-o", parts],
-                             env=cell.environment)
+    split = end_at_exit(subprocess.Popen([cell.bin / "indurop", "record", "-q", "--split", "400ms", "--node", cell.name, "-o", parts],
+                                         env=cell.environment))
     for _ in range(2):
         time.sleep(0.5)
         install("wide")

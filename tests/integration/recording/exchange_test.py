@@ -22,7 +22,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
 from mcap_file import McapFile  # noqa: E402
-from nodes import new_node  # noqa: E402
+from nodes import end_at_exit, new_node  # noqa: E402
 
 # What nt::walked is of nt::output.
 FACTORS = {"same": 1, "other": -1, "fresh": -1, "less": -1, "grown": -1, "by": -1, "by_other": -2, "gains": -1, "gains_kept": -1,
@@ -64,8 +64,9 @@ class Cell:
                               text=True, cwd=self.folder)
 
     def start(self, *words):
-        live = subprocess.Popen([self.bin / "indurop-node", "-q", "--node", self.name, *map(str, words), self.configuration],
-                                env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        live = end_at_exit(subprocess.Popen([self.bin / "indurop-node", "-q", "--node", self.name, *map(str, words),
+                                             self.configuration], env=self.environment, stdout=subprocess.DEVNULL,
+                                            stderr=subprocess.PIPE, text=True))
         while not self.counted() > 0:
             assert live.poll() is None, live.stderr.read()
         return live
