@@ -64,9 +64,10 @@ class Cell:
     def begin(self, record):
         """In manual mode, with power, at rest."""
         self.indurop("run", "module.xml", "--sim", "--speed", SPEED, "--record", record, "--node", self.node, "--detach")
-        self.set("PLC_ROBOT::ROBOT_MODE", MANUAL)
-        self.wait(lambda: self.get("PLC_ROBOT::ROBOT_ARM.eMode") == "ROBOT_MODE_MANUAL" and
-                  self.get("PLC_ROBOT::ROBOT_MODULE_STATE.eState") == "ROBOT_GROUP_STANDBY", "standby in manual mode")
+        self.set("PLC_ROBOT::ROBOT_MODE", "{eMode: ROBOT_MODE_MANUAL, bEnable: 0}")
+        self.wait(lambda: self.get("PLC_ROBOT::ROBOT_ARM.eMode") == "ROBOT_MODE_MANUAL", "manual mode")
+        self.set("PLC_ROBOT::ROBOT_MODE", MANUAL)  # a device that is pressed at the first run would not count
+        self.wait(lambda: self.get("PLC_ROBOT::ROBOT_MODULE_STATE.eState") == "ROBOT_GROUP_STANDBY", "standby in manual mode")
 
     def end(self):
         self.indurop("stop", "--node", self.node)
