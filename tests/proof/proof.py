@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Real time, proven: schedules run in a machine with counted time (guest.py), idle and loaded, compared with cyclictest.
 Fails if a tick is lost, a module overruns or misses its deadline, a tick is later than cyclictest's latest + 1 us, or
-something takes 2 % (an exchange: 4 %) more instructions than instructions.json says (INDUROP_UPDATE_GOLDEN=1 writes that
+something takes 2 % (an exchange: 12 %) more instructions than instructions.json says (INDUROP_UPDATE_GOLDEN=1 writes that
 file again). An EtherCAT bus with 33 drives at a pair of network interfaces is counted, too."""
 
 import argparse
@@ -20,9 +20,9 @@ MORE_THAN_CYCLICTEST_NS = 1000
 # Two boards share the one processor: a tick waits for that of the other one, two switches and its modules.
 OTHER_BOARD_NS = 10_000
 MORE_INSTRUCTIONS = 1.02
-# Guests of the same build differ by steps of this size in all of their exchanges (one guest of fifty), probably by a switch
-# between the node and the slaves.
-STEP_OF_EXCHANGE = 2500
+# An exchange includes switches between the node and the slaves. Guests of the same build differ in all of their exchanges: two of
+# 55 took 2 % and 9 % more than the others.
+MORE_OF_EXCHANGE = 1.12
 WALL_PER_SECOND = 30  # of counted time, at most, on a busy host
 HOST_IS_BUSY = 1800  # seconds to boot: a limit for a guest that hangs, not for one that is slow
 SKIPPED = 77
@@ -167,7 +167,7 @@ def compare(found):
     expected = json.loads(EXPECTED.read_text())
     wrong = []
     for what, count in expected.items():
-        limit = count * MORE_INSTRUCTIONS + (STEP_OF_EXCHANGE if what.startswith("exchange") else 0)
+        limit = count * (MORE_OF_EXCHANGE if what.startswith("exchange") else MORE_INSTRUCTIONS)
         if found.get(what, 1 << 60) > limit:
             wrong.append(f"{what}: {found.get(what)} instructions, {count} before")
     return wrong + [f"{what} is not in {EXPECTED.name}" for what in found if what not in expected]
