@@ -62,7 +62,8 @@ bool EachPeriodReader::permitted(const JobCorrection& press) {
     squares[kind] += force * force;
     if (force > greatest[kind]) {
       greatest[kind] = force;
-      at.column = draft_.book().formulas[static_cast<std::size_t>(press.formula + i)].column();
+      at.column =
+          draft_.book().formulas[static_cast<std::size_t>(press.formula) + static_cast<std::size_t>(i)].column();
     }
     if (std::sqrt(squares[kind]) > press.most) {
       line_.error(at,

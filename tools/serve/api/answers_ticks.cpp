@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tools/client/board/reported_board.h"
 #include "tools/client/recordings/recorded_tick.h"
 #include "tools/client/recordings/replayed_tick.h"
 #include "tools/serve/api/answers.h"
