@@ -24,6 +24,8 @@ class EnablingSwitch {
     lapsed_ = pressed && (lapsed_ || first || (beat != 0 && since_ > kPatience + period / 2));
     return pressed && !lapsed_;
   }
+  // A switch that is pressed has to be released before it counts again. Real-time safe.
+  void lapse() noexcept { lapsed_ = true; }
 
  private:
   std::optional<std::uint32_t> last_;

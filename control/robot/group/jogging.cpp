@@ -20,8 +20,10 @@ constexpr double kEndless = 2 * kPi;      // rad, of an axis that turns without 
 
 void Jogging::step(const JogRequest& jog, bool permitted) noexcept {
   own_stop_ = own_stop_ && robot_.states.stopping();
-  spent_ = jog.enabled && (spent_ || !permitted || !is_free());
-  const bool enabled = enabling_switch_.holds(jog.enabled, jog.beat, robot_.period) && !spent_;
+  if (!permitted || !is_free()) {
+    enabling_switch_.lapse();
+  }
+  const bool enabled = enabling_switch_.holds(jog.enabled, jog.beat, robot_.period);
   const auto* const wanted = std::find_if(jog.speed.begin(), jog.speed.end(), [](double v) { return v != 0; });
   const int most = jog.frame == JogFrame::Joint ? robot_.count() : 6;
   const std::optional<Quat> directions = axes_of(jog);

@@ -30,7 +30,8 @@ class Jogging {
   void try_shorter() noexcept;
 
  private:
-  // Returns whether the robot does nothing but what this switch requests.
+  // Returns whether the robot does nothing but what this switch requests. Else something else has stopped it, or moved
+  // it, and the switch has to be released first.
   [[nodiscard]] bool is_free() const noexcept;
   void begin() noexcept;
   [[nodiscard]] std::optional<Quat> axes_of(const JogRequest& jog) const noexcept;
@@ -44,7 +45,6 @@ class Jogging {
   EnablingSwitch enabling_switch_;
   bool on_ = false;
   bool blocked_ = false;
-  bool spent_ = false;     // something else has stopped the robot, or moved it: the switch has to be released first
   bool own_stop_ = false;  // the robot comes to rest because the request has changed
   double part_ = 1;        // part of the longest distance
   JogFrame frame_ = JogFrame::Joint;
