@@ -58,7 +58,7 @@ int debug(Context& context, PlcDebugRequest& request) {
   }
   const base::TemporaryFolder folder;
   if (folder.path().empty()) {
-    context.out.error("cannot make a folder for temporary files");
+    context.out.error(folder.problem());
     return kFailed;
   }
   if (request.config.empty() && !build(context, request, compiled, folder.path())) {

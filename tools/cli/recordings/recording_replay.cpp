@@ -69,7 +69,7 @@ int as_child(Context& context, const ReplayOptions& options, const std::filesyst
              config::RunOptions run) {
   const base::TemporaryFolder folder;
   if (folder.path().empty()) {
-    context.out.error("no temporary folder can be made; is TMPDIR writable?");
+    context.out.error(folder.problem());
     return kFailed;
   }
   if (run.replay.output.empty() && !options.svg.empty()) {

@@ -144,7 +144,7 @@ Result<ShadowReport, Failure> run_shadow(Context& context, const ShadowRequest& 
   }
   const base::TemporaryFolder folder;
   if (folder.path().empty()) {
-    return Failure{kFailed, "no temporary folder can be made; is TMPDIR writable?"};
+    return Failure{kFailed, folder.problem()};
   }
   become_expendable(request.node);
   config::RunOptions options;

@@ -161,7 +161,7 @@ int fetch_remote(Context& context, BlackboxOptions& options) {
   const auto chosen = boxes_of_moment(boxes, first.end_ns);
   const base::TemporaryFolder folder;
   if (folder.path().empty()) {
-    context.out.error("no temporary folder can be made; is TMPDIR writable?");
+    context.out.error(folder.problem());
     return kFailed;
   }
   std::vector<std::filesystem::path> files;

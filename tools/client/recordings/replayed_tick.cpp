@@ -74,8 +74,7 @@ Result<ReplayedTick, Problem> replay_tick(const std::filesystem::path& file, con
   const base::TemporaryFolder folder;
   const auto program = find_node_program();
   if (program.empty() || folder.path().empty()) {
-    return Problem{program.empty() ? fmt::format("{} is not found", kNodeProgram)
-                                   : std::string("no temporary folder can be made; is TMPDIR writable?")};
+    return Problem{program.empty() ? fmt::format("{} is not found", kNodeProgram) : folder.problem()};
   }
   config::RunOptions run = std::move(setup).value();
   run.quiet = true;
