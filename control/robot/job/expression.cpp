@@ -139,16 +139,16 @@ ExpressionReader::Place ExpressionReader::place(int depth) {
   place.variable = draft_.variable_called(without_index(name.text));
   const int size = draft_.array_at(place.variable);
   const int index = index_in(name.text);
-  const std::string known_name(without_index(name.text));
+  const std::string known(without_index(name.text));
   if (size == 0 && (index >= 0 || line_.peek().text == "[")) {
-    line_.error(name, in_quotes(known_name) + " is no array; declare it, VAR " + known_name + "[10]");
+    line_.error(name, in_quotes(known) + " is no array; declare it, VAR " + known + "[10]");
   } else if (size > 0 && index >= size) {
-    line_.error(name, "the last element of " + in_quotes(known_name) + " is " + known_name + "[" +
-                          std::to_string(size - 1) + "]");
+    line_.error(name,
+                "the last element of " + in_quotes(known) + " is " + known + "[" + std::to_string(size - 1) + "]");
   } else if (index >= 0) {
     place.variable += index;
   } else if (size > 0 && !line_.accept("[")) {
-    line_.error(name, "which element of " + in_quotes(known_name) + "? The first one is " + known_name + "[0]");
+    line_.error(name, "which element of " + in_quotes(known) + "? The first one is " + known + "[0]");
   } else if (size > 0) {
     place.size = size;
     const JobToken start = line_.peek();
@@ -157,9 +157,9 @@ ExpressionReader::Place ExpressionReader::place(int depth) {
     if (!line_.failed() && !line_.accept("]")) {
       line_.error(line_.peek(), "expected ']', found " + JobLine::shown(line_.peek()));
     }
-    if (const auto known = constant_of(place.element); !line_.failed() && known && !is_index(*known, size)) {
-      line_.error(start, "an array has no such element; the first one is [0], the last one of " +
-                             in_quotes(known_name) + " is [" + std::to_string(size - 1) + "]");
+    if (const auto element = constant_of(place.element); !line_.failed() && element && !is_index(*element, size)) {
+      line_.error(start, "an array has no such element; the first one is [0], the last one of " + in_quotes(known) +
+                             " is [" + std::to_string(size - 1) + "]");
     }
   }
   return place;

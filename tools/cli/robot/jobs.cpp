@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,12 @@ std::string job_text(const JsonValue& value, const char* field) {
   return value[field].text().value_or("");
 }
 
+// The entries of a list of fixed size that are in use.
+std::span<const JsonValue> listed(const JsonValue& job, const char* list, const char* count) {
+  const std::span<const JsonValue> all = job[list].values();
+  return all.first(std::min<std::size_t>(all.size(), job[count].natural().value_or(0)));
+}
+
 Cell job_line_cell(std::uint64_t line) {
   return line == 0 ? Cell("-", JsonValue()) : Cell(fmt::format("{}", line), JsonValue(line));
 }
@@ -50,16 +57,12 @@ void add_jobs_of_robot(const JsonValue& job, Table& table) {
     table.add({Cell(called ? started + ", in " + name : name, JsonValue(name)), job_line_cell(line),
                Cell(state, JsonValue(state)), Cell(why.empty() ? "-" : why, JsonValue(why))});
   };
-  const auto interrupted = job["interrupted"].values();
-  for (const JsonValue& each :
-       interrupted.first(std::min<std::size_t>(interrupted.size(), job["nInterrupted"].natural().value_or(0)))) {
+  for (const JsonValue& each : listed(job, "interrupted", "nInterrupted")) {
     add(job_text(each, "name"), each["nLine"].natural().value_or(0), "interrupted", "");
   }
   add(job_text(job, "called"), job["nLine"].natural().value_or(0), job_state_word(job_text(job, "eState")),
       job_text(job, "cMessage"));
-  const auto pending = job["pending"].values();
-  const std::uint64_t count = job["nPending"].natural().value_or(0);
-  for (const JsonValue& each : pending.first(std::min<std::size_t>(pending.size(), count))) {
+  for (const JsonValue& each : listed(job, "pending", "nPending")) {
     add(job_text(each, "name"), 0, "pending", "");
   }
 }
@@ -83,15 +86,15 @@ int show_job(Context& context, const RobotChoice& choice) {
   }
   const JsonValue job = raw_value(items.front().place.type, *bytes);
   Table table({{"JOB", "job"}, {"LINE", "line", Align::Right}, {"STATE", "state"}, {"MESSAGE", "message"}});
-  if (!job_text(job, "name").empty()) {
+  const std::string started = job_text(job, "name");
+  if (!started.empty()) {
     add_jobs_of_robot(job, table);
   } else if (context.format == Format::Table) {
     context.out.note("no job was started");
   }
-  const JsonValue started = job_text(job, "name").empty() ? JsonValue() : JsonValue(job_text(job, "name"));
   print_table(context, table,
               {{"space", choice.space},
-               {"job", started},
+               {"job", started.empty() ? JsonValue() : JsonValue(started)},
                {"resumable", JsonValue(job["bResume"].natural().value_or(0) != 0)},
                {"pending", JsonValue(job["nPending"].natural().value_or(0))}},
               "jobs");
