@@ -196,7 +196,7 @@ TEST_F(RecordingParts, Of_a_killed_recorder_are_readable) {
       EXPECT_EQ(i, 0);
       EXPECT_EQ(again.code, 1) << again.out << again.err;
       // It was killed while the file began: before its first bytes, its description, or its first chunk.
-      EXPECT_THAT(again.err, testing::AnyOf(testing::HasSubstr("no MCAP"), testing::HasSubstr("has no runs"),
+      EXPECT_THAT(again.err, testing::AnyOf(testing::HasSubstr("not a recording"), testing::HasSubstr("has no runs"),
                                             testing::HasSubstr("before it had written the first runs")));
       continue;
     }
