@@ -136,7 +136,7 @@ arm64: ## programs, examples and unit tests for ARM64 in build-arm64, cross-comp
 	@cmake/arm64_root.sh sh -c 'cmake --preset arm64 --log-level=WARNING >/dev/null && cmake --build --preset arm64 -j $(JOBS)'
 
 arm64-test: all arm64 ## these unit tests, the chapter's example, a plant of both architectures: by qemu-user and in QEMU with Debian's kernel for ARM64
-	@cmake/arm64_root.sh tests/arm64/arm64_test.py build-arm64
+	@JOBS=$(JOBS) cmake/arm64_root.sh tests/arm64/arm64_test.py build-arm64
 	@tests/arm64/plant_test.py build build-arm64
 
 install: all ## install to PREFIX (default /usr/local)

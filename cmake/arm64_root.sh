@@ -28,7 +28,7 @@ enter() {
     mount -t tmpfs -o mode=1777 tmpfs "$root/dev/shm"
     mount --bind /dev/null "$root/dev/null" && mount --bind /dev/urandom "$root/dev/urandom"
     exec chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
-      PYTHONDONTWRITEBYTECODE=1 sh -c "cd \"\$0\" && exec \"\$@\"" "$here" "$@"' sh "$root" "$top" "$(pwd)" "$@"
+      PYTHONDONTWRITEBYTECODE=1 ${JOBS:+JOBS="$JOBS"} sh -c "cd \"\$0\" && exec \"\$@\"" "$here" "$@"' sh "$root" "$top" "$(pwd)" "$@"
 }
 
 make_root() {

@@ -3,8 +3,9 @@
 """Unit tests that were cross-compiled for ARM64, and the chapter's example. qemu-user runs what it can. What shares memory
 runs in a machine (machine.py), since qemu-user knows no robust mutexes with priority inheritance. Runs in the Debian of
 cmake/arm64_root.sh (make arm64-test) and prints what failed.
-arm64_test.py BUILD [PATTERN...]: only programs whose names match."""
+arm64_test.py BUILD [PATTERN...]: only programs whose names match. $JOBS programs run in parallel."""
 
+import concurrent.futures
 import contextlib
 import fnmatch
 import json
@@ -29,7 +30,9 @@ PATIENCE = 3600  # seconds a program may take: a limit for one that hangs, howev
 # Nanoseconds per instruction, as powers of two. Tests that spin for a time are cheaper on a slower processor, which has to be
 # fast enough for the chapter's 100 us.
 SLOW, FAST = 3, 1
-BEGIN = "cd /tmp; export HOME=/tmp INDUROP_STATE_DIR=/tmp/state"
+# Sizes of random tests that take too long here.
+FEWER = {"INDUROP_CHAIN_PLANTS": "10"}
+BEGIN = "cd /tmp; export HOME=/tmp INDUROP_STATE_DIR=/tmp/state " + " ".join(f"{name}={value}" for name, value in FEWER.items())
 # Everything is in the guest's memory before it runs: fetching a page from this machine takes no counted time, but what waits for
 # it with a deadline counts.
 PROGRAM = """cat {path} >/dev/null
@@ -82,17 +85,20 @@ def by_user(program, reports):
     with tempfile.TemporaryDirectory() as folder, open(reports / f"{program.name}.log", "w", encoding="utf-8") as log:
         with contextlib.suppress(subprocess.TimeoutExpired):
             code = subprocess.run(["qemu-aarch64", program, f"--gtest_output=xml:{reports / program.name}.xml"],
-                                  cwd=folder, stdout=log, stderr=log, stdin=subprocess.DEVNULL, timeout=PATIENCE, check=False).returncode
+                                  cwd=folder, stdout=log, stderr=log, stdin=subprocess.DEVNULL, timeout=PATIENCE, check=False,
+                                  env={**os.environ, **FEWER, "INDUROP_STATE_DIR": folder}).returncode
     return Result(program.name, "user", reports, None if b"[ RUN      ] " in program.read_bytes() else code)
 
 
 def chapter_faults(build, reports):
     """What is wrong with Figure 1 of the chapter, in a machine of its own."""
-    machine.run(f"{BEGIN}\n{CHAPTER.format(build=build, seconds=CHAPTER_SECONDS)}\n", reports, FAST, PATIENCE)
+    own = reports / "chapter"
+    own.mkdir()
+    machine.run(f"{BEGIN}\n{CHAPTER.format(build=build, seconds=CHAPTER_SECONDS)}\n", own, FAST, PATIENCE)
     try:
-        report = json.loads((reports / "chapter.json").read_text())
+        report = json.loads((own / "chapter.json").read_text())
     except (OSError, ValueError):
-        log = reports / "chapter.log"
+        log = own / "chapter.log"
         return ["chapter: no report; " + (log.read_text() if log.exists() else "it was not started")]
     late = report["tick_lateness_ns"]
     print(f"machine chapter: {report['ticks']} ticks, {report['lost_ticks']} lost, lateness p50 {late['p50']} ns, "
@@ -106,11 +112,22 @@ def chapter_faults(build, reports):
     return wrong
 
 
-def in_machine(programs, reports):
-    """All of them in one machine."""
-    script = [BEGIN] + [PROGRAM.format(path=program, name=program.name) for program in programs]
-    machine.run("\n".join(script) + "\n", reports, SLOW, PATIENCE * len(programs))
-    return [Result(program.name, "machine", reports) for program in programs]
+def in_machine(program, reports):
+    """One program in a machine of its own, which ends with it."""
+    own = reports / f"{program.name}.machine"
+    own.mkdir()
+    machine.run(f"{BEGIN}\n{PROGRAM.format(path=program, name=program.name)}\n", own, SLOW, PATIENCE)
+    for file in own.glob(f"{program.name}.*"):
+        file.rename(reports / file.name)
+    return Result(program.name, "machine", reports)
+
+
+def results_of(programs, reports, pool):
+    """As they end. Those in machines begin first: they take longest."""
+    tasks = [pool.submit(in_machine, program, reports) for program in programs if needs_machine(program)]
+    tasks += [pool.submit(by_user, program, reports) for program in programs if not needs_machine(program)]
+    for task in concurrent.futures.as_completed(tasks):
+        yield task.result()
 
 
 def main():
@@ -122,18 +139,14 @@ def main():
     started = time.monotonic()
     programs = [path for path in sorted((build / "tests").glob("*_test*")) if os.access(path, os.X_OK) and path.is_file()
                 and (not patterns or any(fnmatch.fnmatch(path.name, pattern) for pattern in patterns))]
-    shared = [path for path in programs if needs_machine(path)]
+    chapter = not patterns or "chapter" in patterns
     results = []
-    for program in programs:
-        if program not in shared:
-            results.append(by_user(program, reports))
-            results[-1].show()
-    if shared:
-        for result in in_machine(shared, reports):
+    with concurrent.futures.ThreadPoolExecutor(int(os.environ.get("JOBS", os.cpu_count()))) as pool:
+        example = pool.submit(chapter_faults, build, reports) if chapter else None
+        for result in results_of(programs, reports, pool):
             result.show()
             results.append(result)
-    chapter = not patterns or "chapter" in patterns
-    wrong = chapter_faults(build, reports) if chapter else []
+        wrong = example.result() if example else []
     for result in results:
         wrong += [f"{result.name}: {case}" for case in result.failed]
     print(f"{sum(result.count for result in results)} tests of {len(results)} programs, {len(wrong)} failed, "
