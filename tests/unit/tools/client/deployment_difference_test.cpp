@@ -33,14 +33,14 @@ std::string without(const base::Json& rows, const char* change) {
   return text;
 }
 
-// Changed lines as `diff` counts them.
+// Changed lines as `diff` counts them. The unified form is the one that every diff knows.
 std::size_t counted_by_diff(const std::string& before, const std::string& after) {
   const auto folder = std::filesystem::temp_directory_path() / ("difference_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "a") << before;
   std::ofstream(folder / "b") << after;
   const std::string command =
-      "diff -d " + (folder / "a").string() + " " + (folder / "b").string() + " | grep -c '^[<>]'";
+      "diff -d -u " + (folder / "a").string() + " " + (folder / "b").string() + " | grep -c '^[-+]line'";
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), &::pclose);
   std::size_t count = 0;
   EXPECT_EQ(std::fscanf(pipe.get(), "%zu", &count), 1);
