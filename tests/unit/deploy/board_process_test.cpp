@@ -32,7 +32,12 @@ class BoardProcesses : public testing::Test {
     ASSERT_TRUE(sut_->has_node());
     siginfo_t info{};
     ASSERT_EQ(::waitid(P_ALL, 0, &info, WEXITED | WNOWAIT), 0);
+    while (info.si_status != kExitCode) {  // a child of an earlier test in this process
+      ASSERT_EQ(::waitpid(info.si_pid, nullptr, 0), info.si_pid);
+      ASSERT_EQ(::waitid(P_ALL, 0, &info, WEXITED | WNOWAIT), 0);
+    }
   }
+  static constexpr int kExitCode = 4;
 
   std::filesystem::path folder_;
   base::Log log_{"test", "b", true};

@@ -16,6 +16,7 @@
 #include "core/keys/credentials.h"
 #include "core/keys/digest.h"
 #include "core/keys/plant_keys.h"
+#include "gnu_tar.h"
 
 namespace indurop::deploy {
 namespace {
@@ -87,6 +88,9 @@ TEST_F(Bundle, Is_unpacked_as_it_was_packed) {
 }
 
 TEST_F(Bundle, Is_the_same_file_each_time_and_readable_by_tar) {
+  if (!has_gnu_tar()) {
+    GTEST_SKIP() << "there is no GNU tar";
+  }
   ASSERT_EQ(write(), "");
   const std::string first = bytes_of_file(file());
   ASSERT_EQ(write(), "");
@@ -129,6 +133,9 @@ TEST_F(Bundle, Cut_anywhere_is_refused) {
 
 // Made by tar: what write_bundle() never writes.
 TEST_F(Bundle, Members_that_the_package_does_not_list_are_refused) {
+  if (!has_gnu_tar()) {
+    GTEST_SKIP() << "there is no GNU tar";
+  }
   ASSERT_EQ(write(), "");
   const std::string script = "cd " + folder_.string() +
                              " && mkdir m && tar --zstd -xf cell.bundle -C m && cd m && echo x > ../escaped && "
@@ -161,6 +168,9 @@ TEST_F(Bundle, Does_not_replace_what_it_was_packed_from) {
 }
 
 TEST_F(Bundle, Is_known_before_it_is_finished) {
+  if (!has_gnu_tar()) {
+    GTEST_SKIP() << "there is no GNU tar";
+  }
   ASSERT_EQ(write(), "");
   EXPECT_TRUE(is_packed_plant(file()));
   const std::string good = bytes_of_file(file());

@@ -11,6 +11,8 @@
 #include <iterator>
 #include <string>
 
+#include "gnu_tar.h"
+
 namespace indurop::deploy {
 namespace {
 
@@ -59,6 +61,9 @@ TEST_F(ProjectArchive, Is_unpacked_as_it_was_packed) {
 
 // Made by tar: what write_project() never writes.
 TEST_F(ProjectArchive, Paths_that_lead_outside_and_links_are_refused) {
+  if (!has_gnu_tar()) {
+    GTEST_SKIP() << "there is no GNU tar";
+  }
   make("project.json", "{}");
   files::create_directories(folder_ / "source");
   const std::string tar = "cd " + folder_.string() + " && ";
@@ -78,6 +83,9 @@ TEST_F(ProjectArchive, Paths_that_lead_outside_and_links_are_refused) {
 }
 
 TEST_F(ProjectArchive, Names_are_bytes) {
+  if (!has_gnu_tar()) {
+    GTEST_SKIP() << "there is no GNU tar";
+  }
   const std::string umlaut = "m\xc3\xbcller.txt";  // UTF-8
   const std::string other = "bad\xff\xfe";
   const std::string odd = "a\nb 'c' \"d\"";
@@ -95,6 +103,9 @@ TEST_F(ProjectArchive, Names_are_bytes) {
 
 // Made by tar, again.
 TEST_F(ProjectArchive, Nothing_is_left_of_one_that_is_refused) {
+  if (!has_gnu_tar()) {
+    GTEST_SKIP() << "there is no GNU tar";
+  }
   make("project.json", "{}");
   files::create_directories(folder_ / "source/a/.git");
   make("source/a/good", "x");
