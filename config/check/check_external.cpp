@@ -11,18 +11,18 @@
 
 namespace indurop::config {
 
-void check_type_libraries(const TypeFiles& named, base::Diagnostics& report) {
-  for (std::size_t i = 0; i < named.types.size(); ++i) {
-    const std::string& written = named.types_as_written[i];
-    const auto read = schema::read_module_file(named.types[i]);
-    if (!read) {
-      report.error(named.type_places[i], unreadable_file(read.error(), {named.types[i], written, "<types>"}, true));
-    } else if (!read.value().shared_object) {
-      report.error(named.type_places[i], base::path_in_quotes(written) +
-                                             " is a program, not a library of types; name the lib..._types.so that "
-                                             "indurop_add_glb(... TYPES) builds");
-    }
+std::string type_library_problem(const TypeFiles& named, std::size_t library, const CheckOptions& options) {
+  const std::string& written = named.types_as_written[library];
+  const auto read = schema::read_module_file(named.types[library]);
+  if (!read) {
+    return unreadable_file(read.error(), {named.types[library], written, "<types>"}, true);
   }
+  std::string problem = read.value().shared_object
+                            ? machine_problem(read.value().machine, options)
+                            : std::string(
+                                  "is a program, not a library of types; name the lib..._types.so that "
+                                  "indurop_add_glb(... TYPES) builds");
+  return problem.empty() ? problem : base::path_in_quotes(written) + " " + problem;
 }
 
 void resolve_rules(std::vector<VariableRule>& rules, const schema::Schema& schema, base::Diagnostics& report) {
@@ -103,7 +103,11 @@ void check_foreign_types(const TypeFiles& named, const std::vector<VariableRule>
 
 std::set<std::string> check_external(CheckContext& context, const Uses& uses) {
   ExternalPlane& plane = context.config.external;
-  check_type_libraries(plane, context.report);
+  for (std::size_t i = 0; i < plane.types.size(); ++i) {
+    if (const std::string problem = type_library_problem(plane, i, context.options); !problem.empty()) {
+      context.report.error(plane.type_places[i], problem);
+    }
+  }
   resolve_rules(plane.variables, context.result.schema, context.report);
   check_external_rules(plane.variables, plane.domain && !plane.types.empty(), uses, context.report);
   if (plane.domain) {

@@ -118,14 +118,8 @@ class FileCheck {
       return;
     }
     facts_.file = std::move(read.value());
-    if (!options_.arch.empty() && !is_for(facts_.file.machine, options_.arch)) {
-      error("is built for " + machine_name(facts_.file.machine) + ", the board is " + options_.arch +
-            "; name the file that is built for the board, or correct arch=");
-      return;
-    }
-    if (options_.machine && facts_.file.machine != kThisMachine) {
-      error("is built for " + machine_name(facts_.file.machine) + ", this machine is " + machine_name(kThisMachine) +
-            "; build it for this one");
+    if (const std::string problem = machine_problem(facts_.file.machine, options_); !problem.empty()) {
+      error(problem);
       return;
     }
     check_abi();
@@ -271,6 +265,18 @@ void declare_io_variables(ModuleFacts& facts, const Module& module, const std::f
 }
 
 }  // namespace
+
+std::string machine_problem(std::uint16_t machine, const CheckOptions& options) {
+  if (!options.arch.empty() && !is_for(machine, options.arch)) {
+    return "is built for " + machine_name(machine) + ", the board is " + options.arch +
+           "; name the file that is built for the board, or correct arch=";
+  }
+  if (options.machine && machine != kThisMachine) {
+    return "is built for " + machine_name(machine) + ", this machine is " + machine_name(kThisMachine) +
+           "; build it for this one";
+  }
+  return {};
+}
 
 std::string unreadable_file(const Error& failure, const NamedFile& file, bool search) {
   const std::string name = base::path_in_quotes(file.as_written);

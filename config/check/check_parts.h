@@ -71,8 +71,9 @@ void check_agreement(std::span<const BoardView> boards, base::Diagnostics& repor
 // no writer.
 void check_writers(const Uses& uses, const std::set<std::string>& set_by_hand, base::Diagnostics& report);
 
-// Checks that the files exist and are libraries.
-void check_type_libraries(const TypeFiles& named, base::Diagnostics& report);
+// Returns why a library of types cannot be used by boards with these options; empty if it can: it has to exist, to be a
+// library, and to be built for the board.
+std::string type_library_problem(const TypeFiles& named, std::size_t library, const CheckOptions& options);
 // Replaces the names in the rules by full names; removes rules for variables that do not exist.
 void resolve_rules(std::vector<VariableRule>& rules, const schema::Schema& schema, base::Diagnostics& report);
 // Checks the rules for third-party tools. `shown`: there is an external plane. Call it after resolve_rules().
@@ -93,6 +94,9 @@ struct NamedFile {
 };
 // Returns why schema::read_module_file() failed and what to do; with `search` it proposes similar names in the folder.
 std::string unreadable_file(const Error& failure, const NamedFile& file, bool search);
+// Returns "is built for ..." and what to do if a file for this ELF machine cannot run where the options say; else
+// empty.
+std::string machine_problem(std::uint16_t machine, const CheckOptions& options);
 void sort_by_severity(std::vector<base::Diagnostic>& diagnostics);
 
 }  // namespace indurop::config

@@ -95,7 +95,7 @@ class PlantCheckRun {
     const std::vector<BoardView> views = views_of(plant_, result_);
     const Uses uses(views);
     PlantContext context{plant_, views, uses, schema_, report};
-    check_type_libraries(plant_, report);
+    check_type_libraries(report);
     check_agreement(views, report);
     resolve_rules(plant_.variables, schema_, report);
     check_external_rules(plant_.variables, plant_.external_domain && !plant_.types.empty(), uses, report);
@@ -115,6 +115,19 @@ class PlantCheckRun {
     check_pools(context);
     check_security(plant_, options_, report);
     report.add_summary(between_);
+  }
+
+  // What is wrong for all boards is reported once.
+  void check_type_libraries(base::Diagnostics& report) {
+    for (std::size_t library = 0; library < plant_.types.size(); ++library) {
+      std::set<std::string> problems{""};
+      for (std::size_t board = 0; board < contexts_.size(); ++board) {
+        const std::string problem = type_library_problem(plant_.boards[board].types, library, contexts_[board].options);
+        if (problems.insert(problem).second) {
+          report.error(plant_.type_places[library], problem);
+        }
+      }
+    }
   }
 
   void add_owners_of_the_rest() {

@@ -20,6 +20,7 @@ struct Board {
   std::string address;         // IP address or host name for <multicast>off</multicast>; empty: found by multicast
   std::string interface_name;  // network interface that connects the plant; empty: DDS chooses
   std::string arch;            // of its processor, as Debian calls it: amd64, arm64; empty: not declared
+  TypeFiles types;             // those of the plant, for its architecture
   Config config;
   base::SourcePlace place;
 };

@@ -104,6 +104,26 @@ void check_owners(const Plant& plant, base::Diagnostics& report) {
   }
 }
 
+// Returns whether the name contained ${arch}, which is the architecture of the board.
+bool put_architecture(std::string& name, const base::SourcePlace& place, const Board& board,
+                      base::Diagnostics& report) {
+  static constexpr std::string_view kArch = "${arch}";
+  std::size_t at = name.find(kArch);
+  if (at == std::string::npos) {
+    return false;
+  }
+  if (board.arch.empty()) {
+    report.error(place, "${arch} stands for the architecture of the board, and the board " +
+                            base::in_quotes(board.name) + R"( does not say it; write <board name=")" + board.name +
+                            R"(" arch="amd64">, or arm64)");
+    return false;
+  }
+  for (; at != std::string::npos; at = name.find(kArch)) {
+    name.replace(at, kArch.size(), board.arch);
+  }
+  return true;
+}
+
 }  // namespace
 
 bool is_node_name(std::string_view name) noexcept {
@@ -198,23 +218,19 @@ void add_standbys(Plant& plant, base::Diagnostics& report) {
 }
 
 void put_architectures(Plant& plant, base::Diagnostics& report) {
-  static constexpr std::string_view kArch = "${arch}";
+  const std::filesystem::path folder = plant.file.parent_path();
   for (Board& board : plant.boards) {
     for (Module& module : board.config.modules) {
-      std::size_t at = module.file_as_written.find(kArch);
-      if (at == std::string::npos) {
-        continue;
+      if (put_architecture(module.file_as_written, module.places.file, board, report)) {
+        module.file = module_file(folder, module.file_as_written);
       }
-      if (board.arch.empty()) {
-        report.error(module.places.file, "${arch} stands for the architecture of the board, and the board " +
-                                             base::in_quotes(board.name) + R"( does not say it; write <board name=")" +
-                                             board.name + R"(" arch="amd64">, or arm64)");
-        continue;
+    }
+    board.types = plant;
+    for (std::size_t i = 0; i < board.types.types.size(); ++i) {
+      std::string& written = board.types.types_as_written[i];
+      if (put_architecture(written, board.types.type_places[i], board, report)) {
+        board.types.types[i] = (folder / written).lexically_normal();
       }
-      for (; at != std::string::npos; at = module.file_as_written.find(kArch)) {
-        module.file_as_written.replace(at, kArch.size(), board.arch);
-      }
-      module.file = module_file(plant.file.parent_path(), module.file_as_written);
     }
   }
 }

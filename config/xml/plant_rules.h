@@ -29,7 +29,7 @@ struct PlantPlaces {
 // Checks between elements that are each correct on their own. add_standbys() adds the second module of each module with
 // <standby> to its standby board.
 void add_standbys(Plant& plant, base::Diagnostics& report);
-// Puts the architecture of the board in place of ${arch} in the file names of its modules.
+// Puts the architecture of the board in place of ${arch} in the file names of its modules and libraries of types.
 void put_architectures(Plant& plant, base::Diagnostics& report);
 void check_plant_rules(const Plant& plant, const PlantPlaces& places, base::Diagnostics& report);
 

@@ -86,10 +86,10 @@ std::map<std::filesystem::path, Use> files_of(const config::Plant& plant, const 
       files[file] = Use::Data;
     }
   };
-  for (const std::string& library : plant.types_as_written) {
-    add_program(library);
-  }
   for (const config::Board& board : plant.boards) {
+    for (const std::string& library : board.types.types_as_written) {
+      add_program(library);
+    }
     for (const config::Module& module : board.config.modules) {
       add_module(module);
       add_data(files_named_by_properties(module, folder));

@@ -21,9 +21,9 @@ Flow read_board(Configuration& to, const std::filesystem::path& file) {
   to.diagnostics = std::move(checked.diagnostics);
   to.plant.name = file.stem().string();
   to.plant.file = file;
-  to.plant.types_as_written = checked.config.external.types_as_written;
   config::Board& board = to.plant.boards.emplace_back();
   board.name = "board";
+  board.types = checked.config.external;
   board.config = std::move(checked.config);
   Flow flow;
   for (const schema::Variable& variable : checked.check.schema.variables) {

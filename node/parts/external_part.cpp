@@ -41,7 +41,7 @@ void ExternalPart::configure(const config::Plant& plant, const config::PlantChec
     return;
   }
   wanted_ = true;
-  types_ = static_cast<const config::TypeFiles&>(plant);
+  types_ = plant.boards[board].types;
   settings_.plant = plant.name;
   settings_.network = network_settings(plant, board);
   settings_.network.domain = *plant.external_domain;

@@ -299,55 +299,6 @@ TEST_F(CheckPlant, Age_beyond_maxage_is_a_warning_with_the_reason) {
               ElementsAre(AllOf(HasSubstr("its maxage is 1 ms, but the network alone may take 1 ms"))));
 }
 
-TEST_F(CheckPlant, Modules_for_elsewhere_are_not_compared_with_this_machine) {
-  const std::uint16_t other = EM_S390;
-  ModuleSpec spec;
-  spec.machine = other;
-  write_module(folder_ / "a.so", spec);
-  ModuleSpec here;
-  write_module(folder_ / "b.so", here);
-  const CheckOptions elsewhere{.machine = false};
-  const std::string core = "<core>4000</core>";
-  const std::string a = board("a", periodic("a.so", "1ms", 1, core));
-  EXPECT_THAT(checked(a, elsewhere).lines(), IsEmpty());
-  EXPECT_THAT(checked(a).lines(), Contains(HasSubstr("this machine is")));
-  EXPECT_THAT(checked(a).lines(), Contains(HasSubstr("processor 4000 does not exist")));
-  EXPECT_THAT(
-      checked(board("a", periodic("a.so", "1ms", 1) + periodic("b.so", "1ms", 2)), elsewhere).lines(),
-      ElementsAre(AllOf(HasSubstr("'b.so' is built for "), HasSubstr("a of the same board for machine number 22"))));
-  const CheckOptions only_b{.board = "b"};
-  EXPECT_THAT(checked(a + board("b", periodic("b.so", "1ms", 1)), only_b).lines(), IsEmpty());
-}
-
-TEST_F(CheckPlant, Files_are_those_of_the_board_s_architecture) {
-  ModuleSpec arm;
-  arm.machine = EM_AARCH64;
-  ModuleSpec x86;
-  x86.machine = EM_X86_64;
-  for (const char* folder : {"build-arm64", "build-amd64"}) {
-    std::filesystem::create_directory(folder_ / folder);
-  }
-  write_module(folder_ / "build-arm64/a.so", arm);
-  write_module(folder_ / "build-amd64/a.so", x86);
-  const auto on = [](const std::string& name, const std::string& arch, const std::string& file) {
-    return "<board name=\"" + name + "\" arch=\"" + arch + "\">" + periodic(file, "1ms", 1) + "</board>\n";
-  };
-  const CheckOptions elsewhere{.machine = false};
-  const std::string each = "build-${arch}/a.so";
-  EXPECT_THAT(checked(on("x", "amd64", each) + on("y", "arm64", each), elsewhere).lines(), IsEmpty());
-  EXPECT_THAT(checked(on("x", "amd64", each) + on("y", "arm64", "build-amd64/a.so"), elsewhere).lines(),
-              ElementsAre(AllOf(HasSubstr("plant.xml:4:48: error: "),
-                                HasSubstr("'build-amd64/a.so' is built for x86-64, the board is arm64; name the file "
-                                          "that is built for the board"))));
-  // A board checks its own files against its own processor, too.
-  const std::string swapped = on("x", "arm64", each) + on("y", "amd64", each);
-  const CheckOptions here{.board = "x"};
-#if defined(__x86_64__)
-  EXPECT_THAT(checked(swapped, here).lines(),
-              ElementsAre(HasSubstr("'build-arm64/a.so' is built for AArch64, this machine is x86-64")));
-#endif
-}
-
 TEST_F(CheckPlant, A_missing_file_with_an_absolute_name_was_not_deployed) {
   const std::string boards = board("a", periodic("/nosuch/a.so", "1ms", 1)) + board("b", periodic("b.so", "1ms", 1));
   write_module(folder_ / "b.so", {});

@@ -218,6 +218,14 @@ TEST(PlantReader, Arch_stands_for_the_architecture_of_the_board_that_runs_the_mo
   EXPECT_THAT(lines_of(plant(board("name=\"main\"", periodic("build-${arch}/a.so", "1ms", 1)))),
               ElementsAre(AllOf(HasSubstr("p.xml:2:"), HasSubstr("the board 'main' does not say it; write <board "
                                                                  "name=\"main\" arch=\"amd64\">, or arm64"))));
+  const std::string types = "<types>lib-${arch}/t.so</types>";
+  const ReadPlant typed = read_plant_text(
+      plant(types + board(R"(name="a" arch="amd64")", "") + board(R"(name="b" arch="arm64")", "")), "/cell/p.xml");
+  ASSERT_TRUE(typed.ok());
+  EXPECT_THAT(typed.plant.boards[0].types.types, ElementsAre("/cell/lib-amd64/t.so"));
+  EXPECT_THAT(typed.plant.boards[1].types.types_as_written, ElementsAre("lib-arm64/t.so"));
+  EXPECT_THAT(lines_of(plant(types + board("name=\"b\"", periodic("a.so", "1ms", 1)))),
+              ElementsAre(HasSubstr("the board 'b' does not say it")));
   EXPECT_THAT(with_board(board("name=\"b\" arch=\"x86\"")),
               ElementsAre(HasSubstr("arch: 'x86' is not an architecture; write amd64 (x86-64) or arm64 (AArch64)")));
 }

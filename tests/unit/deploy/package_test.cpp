@@ -205,6 +205,22 @@ TEST_F(Packing, Files_that_properties_name_travel_too) {
   EXPECT_THAT(paths, ElementsAre("cell/pick.job", "cell/plant.xml", "mods/arm.urdf", "mods/x.so"));
 }
 
+TEST_F(Packing, Each_board_s_libraries_of_types_travel) {
+  put("cell/amd64.so", "types");
+  put("cell/arm64.so", "types of another processor");
+  config::Plant with = plant("../mods/x.so");
+  with.boards.push_back(with.boards[0]);
+  with.boards[0].types.types_as_written = {"amd64.so"};
+  with.boards[1].types.types_as_written = {"arm64.so"};
+  const auto sut = pack_plant(with, {folder_});
+  ASSERT_TRUE(sut) << sut.error().text;
+  std::vector<std::string> paths;
+  for (const PackageFile& file : sut->package.files) {
+    paths.push_back(file.path);
+  }
+  EXPECT_THAT(paths, ElementsAre("cell/amd64.so", "cell/arm64.so", "cell/plant.xml", "mods/x.so"));
+}
+
 TEST_F(Packing, A_file_that_cannot_be_read_is_named) {
   EXPECT_THAT(pack_plant(plant("gone.so")).error().text, HasSubstr("gone.so"));
 }
