@@ -37,7 +37,7 @@ struct DrawnArea {
   [[nodiscard]] double middle() const { return (low + high) / 2; }
 };
 
-struct View {
+struct Projection {
   double left, width;
   const char* across_name;
   const char* up_name;
@@ -45,7 +45,7 @@ struct View {
   const std::vector<double>& up;
 };
 
-// Maps values to positions on the picture: the middle of the path is in the middle of the view, one scale for both
+// Maps values to positions on the picture: the middle of the path is in the middle of the picture, one scale for both
 // directions.
 struct Frame {
   double left, top, width, height, per_unit;
@@ -69,7 +69,7 @@ void grid(const Frame& frame, base::SvgPart& out) {
   }
 }
 
-void draw(const View& view, const Frame& frame, const std::string& name, base::SvgPart& out) {
+void draw(const Projection& view, const Frame& frame, const std::string& name, base::SvgPart& out) {
   svg_text(out, frame.left, kWayTop - 12, "start", "name",
            fmt::format("{}: {} across, {} up", name, view.across_name, view.up_name));
   grid(frame, out);
@@ -104,14 +104,14 @@ base::SvgPart way_svg(const Series& series, double width) {
   }
   const bool flat = series.lines.size() == 2;
   const double each = (width - (flat ? 1 : 2) * kWayLeft - (flat ? 0 : kApart)) / (flat ? 1 : 2);
-  std::vector<View> views{{kWayLeft, each, "x", "y", series.lines[0], series.lines[1]}};
+  std::vector<Projection> views{{kWayLeft, each, "x", "y", series.lines[0], series.lines[1]}};
   if (!flat) {
     views.push_back({2 * kWayLeft + each + kApart, each, "x", "z", series.lines[0], series.lines[2]});
   }
   const double height = kWayHeight - kWayTop - kWayBottom;
   std::vector<Frame> frames;
   double per_unit = std::numeric_limits<double>::infinity();
-  for (const View& view : views) {
+  for (const Projection& view : views) {
     Frame frame{view.left, kWayTop, view.width, height, 1, {}, {}};
     frame.across.take(view.across);
     frame.up.take(view.up);
