@@ -65,10 +65,10 @@ class Agent {
         verify_(state),
         server_(self_,
                 [this](const std::string& name) {
-                  return offer(name, {options_.board, state_, values_, verify_, pools_});
+                  return offer(name, {options_.board, state_, values_, verify_, pools_, board_commands_.users()});
                 }),
         net_(link_settings(options, self_), keys_, log),
-        others_(options.board, log),
+        others_(options.board, self_, board_commands_.users(), log),
         platform_(options.board, self_, running, platform, keys_, process_, log) {}
 
   int run(base::StopSignal& signals) {
@@ -195,7 +195,7 @@ class Agent {
         perform(transaction_.fetched(fetcher_.problem()), now);
       }
     } else {
-      (void)net_.link()->take_chunks();
+      others_.step_users(*net_.link(), state_.committed().plant, now);
     }
     busy_ = server_.serve(*net_.link(), now);
     if (const auto problem = verify_.step()) {

@@ -22,6 +22,12 @@ bool has_words(Action action) noexcept {
          action != Action::DropRecord && action != Action::SetUsers;
 }
 
+std::string append(operate::AuditEntry entry) {
+  const std::filesystem::path file = operate::usual_audit_file();
+  const std::string problem = operate::append_audit(file, std::move(entry));
+  return problem.empty() ? problem : fmt::format("{}: {}", file.string(), problem);
+}
+
 }  // namespace
 
 const char* word_of(Action action) noexcept {
@@ -80,10 +86,13 @@ std::string note_command(const Command& command, const std::string& user, const 
   const bool renewal = command.action == Action::Force && order.renew;
   const std::string claimed = order.who.empty() ? "a deployer" : order.who + " (deployer)";
   const std::string what = renewal ? "renewal" : fmt::format("{}", fmt::join(order.lines, " ")).substr(0, kMaxWhat);
-  const std::string problem = operate::append_audit(
-      operate::usual_audit_file(), {rt::wall_ns(), user.empty() ? claimed : user, command.host, command.board,
-                                    word_of(command.action), what, outcome, order.reason});
-  return problem.empty() ? problem : fmt::format("{}: {}", operate::usual_audit_file().string(), problem);
+  return append({rt::wall_ns(), user.empty() ? claimed : user, command.host, command.board, word_of(command.action),
+                 what, outcome, order.reason});
+}
+
+std::string log_users(const std::string& board, const UserList& list, const std::string& author) {
+  return append({rt::wall_ns(), author.empty() ? "a deployer" : author, "another board", board,
+                 word_of(Action::SetUsers), fmt::format("list {}", list.serial), "done", ""});
 }
 
 }  // namespace indurop::deploy

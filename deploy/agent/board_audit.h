@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "deploy/transaction/user_list.h"
 #include "deploy/words/command_words.h"
 
 namespace indurop::deploy {
@@ -18,5 +19,8 @@ Command signed_by(Command command, const std::string& user);
 // so. `outcome`: "begun", "done", else why not. Nothing is noted of recordings that are kept running. Returns why it
 // could not be noted, else an empty text.
 std::string note_command(const Command& command, const std::string& user, const std::string& outcome);
+// Notes a list of users that another board had. `author`: the verified name of the one who sent it to the plant; empty:
+// a deployer. Returns the same.
+std::string log_users(const std::string& board, const UserList& list, const std::string& author);
 
 }  // namespace indurop::deploy

@@ -33,6 +33,7 @@ class BoardCommands {
   // command is accepted now, empty: commands are accepted. Returns true if a command was received.
   // `files`: new versions of modules come over it.
   bool step(CommandLink& link, DeployLink& files, const std::string& plant, const std::string& busy, rt::MonoTime now);
+  [[nodiscard]] const BoardUsers& users() const noexcept { return users_; }
 
  private:
   struct Known {

@@ -14,6 +14,7 @@
 #include "core/base/replace_file.h"
 #include "core/keys/participant_keys.h"
 #include "core/keys/plant_keys.h"
+#include "deploy/agent/board_audit.h"
 #include "deploy/transaction/write_words.h"
 #include "store/operate/item.h"
 #include "store/vars/retain.h"
@@ -28,6 +29,8 @@ using base::Problem;
 using config::UserRole;
 
 constexpr mode_t kListMode = 0640;
+// A list may skip so many serials: an administrator cannot use up all of them.
+constexpr std::uint64_t kMostSteps = 1'000'000;
 
 std::string text_of_file(const fs::path& file) {
   auto text = base::read_file(file);
@@ -89,7 +92,7 @@ UserRole needed_role(Action action) noexcept {
   return UserRole::Administer;
 }
 
-Result<std::string, Problem> signer_of(const Command& command, const UserSignature& signature,
+Result<std::string, Problem> signer_of(const std::string& text, const UserSignature& signature,
                                        const Authority& authority, keys::Instant now) {
   const auto facts = keys::read_certificate(signature.certificate);
   if (!facts || !keys::issued_by(signature.certificate, authority.certificate) ||
@@ -106,7 +109,7 @@ Result<std::string, Problem> signer_of(const Command& command, const UserSignatu
   if (now < facts->validity.from || now > facts->validity.until) {
     return Problem{fmt::format("the certificate of {} is not valid now", name)};
   }
-  if (!keys::signature_holds(command_text(command), signature.signature, keys::public_key_in(signature.certificate))) {
+  if (!keys::signature_holds(text, signature.signature, keys::public_key_in(signature.certificate))) {
     return Problem{fmt::format("it is not signed with the key of {}", name)};
   }
   return name;
@@ -140,7 +143,7 @@ std::string beyond_variables(const config::PlantUser& user, const std::string& n
 BoardUsers::BoardUsers(std::string board, const DeployKeys& keys) : board_(std::move(board)), keys_(keys) {}
 
 fs::path BoardUsers::file_of(const std::string& plant) const {
-  return vars::state_directory(board_) / "users" / (plant + ".xml");
+  return vars::state_directory(board_) / "users" / (plant + ".list");
 }
 
 // A user who is limited to some variables can change nothing else.
@@ -162,24 +165,41 @@ std::string BoardUsers::beyond_limits(const config::PlantUser& user, const Comma
   return {};
 }
 
-BoardUsers::Verdict BoardUsers::judge(const Command& command, const std::string& plant) const {
-  const auto signature = read_user_signature(command.signature);
+Result<std::string, Problem> BoardUsers::signer(const std::string& plant, const std::string& text,
+                                                const std::string& signature) const {
+  const auto of_user = read_user_signature(signature);
   const OwnKeys own = keys_.own(plant);
-  if (!signature || own.folder.empty()) {
-    return {{}, keys_.refusal(plant, command_text(command), command.signature)};
+  if (!of_user || own.folder.empty()) {
+    std::string refusal = keys_.refusal(plant, text, signature);
+    return refusal.empty() ? Result<std::string, Problem>(std::string()) : Problem{std::move(refusal)};
   }
   const keys::ParticipantKeys files(own.folder);
-  const auto name =
-      signer_of(command, *signature, {own.plant, text_of_file(files.authority), text_of_file(files.revoked)},
-                keys::instant_now());
+  return signer_of(text, *of_user, {own.plant, text_of_file(files.authority), text_of_file(files.revoked)},
+                   keys::instant_now());
+}
+
+std::optional<UserList> BoardUsers::stored(const std::string& plant) const {
+  return read_user_list(text_of_file(file_of(plant)));
+}
+
+config::PlantUsers BoardUsers::users_of(const std::string& plant) const {
+  const auto list = stored(plant);
+  config::ReadUsers read = config::read_users_text(list ? list->users : std::string(), file_of(plant));
+  return read.ok() ? std::move(read.users) : config::PlantUsers{};
+}
+
+BoardUsers::Verdict BoardUsers::judge(const Command& command, const std::string& plant) const {
+  const auto name = signer(plant, command_text(command), command.signature);
   if (!name) {
     return {{}, name.error().text};
   }
-  if (own.plant != plant) {
+  if (name->empty()) {
+    return {};
+  }
+  if (keys_.own(plant).plant != plant) {
     return {*name, fmt::format("this board has keys, but none of plant {}", plant)};
   }
-  const config::ReadUsers list = config::read_users(file_of(plant));
-  const config::PlantUsers users = list.ok() ? list.users : config::PlantUsers{};
+  const config::PlantUsers users = users_of(plant);
   std::string refusal = beyond_role(users, *name, command.action, board_);
   if (refusal.empty()) {
     refusal = beyond_limits(*users.find(*name), command);
@@ -187,15 +207,73 @@ BoardUsers::Verdict BoardUsers::judge(const Command& command, const std::string&
   return {*name, std::move(refusal)};
 }
 
-Result<void, Problem> BoardUsers::replace(const std::string& plant, const std::string& list) const {
-  if (!vars::valid_node_name(plant) || !config::read_users_text(list, "users.xml").ok()) {
-    return Problem{"it is not a list of users"};
+std::string BoardUsers::id(const std::string& plant) const {
+  const auto list = stored(plant);
+  return list ? text_of(id_of(*list)) : std::string();
+}
+
+std::string BoardUsers::newer_than(const std::string& plant, const std::string& id) const {
+  const auto own = stored(plant);
+  const auto other = read_user_list_id(id);
+  return own && (!other || id_of(*own) > *other) ? text_of(*own) : std::string();
+}
+
+Result<std::string, Problem> BoardUsers::author_of(const UserList& list) const {
+  auto name = signer(list.plant, signed_text(list), list.signature);
+  if (!name || name->empty()) {
+    return name;
   }
-  const fs::path file = file_of(plant);
+  const config::PlantUsers users = users_of(list.plant);
+  std::string refusal = beyond_role(users, *name, Action::SetUsers, board_);
+  if (refusal.empty() && !users.find(*name)->variables.empty()) {
+    refusal = fmt::format("{} may change some variables only", *name);
+  }
+  return refusal.empty() ? name : Problem{std::move(refusal)};
+}
+
+Result<BoardUsers::Accepted, Problem> BoardUsers::accept(const std::string& plant, const std::string& text) const {
+  auto list = read_user_list(text);
+  if (!vars::valid_node_name(plant) || !list || list->plant != plant ||
+      !config::read_users_text(list->users, "users.xml").ok()) {
+    return Problem{"it is not a list of users of this plant, or one of another release"};
+  }
+  auto author = author_of(*list);
+  if (!author) {
+    return author.error();
+  }
+  const UserListId own = id_of(stored(plant).value_or(UserList{}));
+  if (id_of(*list) < own || list->serial > own.serial + kMostSteps) {
+    return Problem{fmt::format("this board has list {} of the users, and this one is {}; send the list again",
+                               own.serial, list->serial)};
+  }
+  return Accepted{*std::move(list), *std::move(author)};
+}
+
+Result<void, Problem> BoardUsers::store(const UserList& list) const {
+  const fs::path file = file_of(list.plant);
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
-  const auto written = base::replace_file(file, list, base::Durable::Yes, kListMode);
+  const auto written = base::replace_file(file, text_of(list), base::Durable::Yes, kListMode);
   return written ? Result<void, Problem>() : Problem{base::cannot_write(file, written.error())};
+}
+
+Result<void, Problem> BoardUsers::replace(const std::string& plant, const std::string& text) const {
+  const auto accepted = accept(plant, text);
+  return accepted ? store(accepted->list) : accepted.error();
+}
+
+Result<std::string, Problem> BoardUsers::take(const std::string& plant, const std::string& text) const {
+  const auto accepted = accept(plant, text);
+  if (!accepted) {
+    return accepted.error();
+  }
+  if (std::string unlogged = log_users(board_, accepted->list, accepted->author); !unlogged.empty()) {
+    return Problem{fmt::format("it cannot be logged in {}", unlogged)};
+  }
+  if (const auto stored = store(accepted->list); !stored) {
+    return stored.error();
+  }
+  return fmt::format("list {} of the users of {} comes from another board", accepted->list.serial, plant);
 }
 
 }  // namespace indurop::deploy

@@ -8,6 +8,7 @@
 #include <indurop/result.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,6 +16,7 @@
 #include "core/base/problem.h"
 #include "core/keys/credentials.h"
 #include "deploy/agent/deploy_keys.h"
+#include "deploy/transaction/user_list.h"
 #include "deploy/words/command_words.h"
 
 namespace indurop::deploy {
@@ -28,8 +30,8 @@ struct Authority {
   std::string certificate;
   std::string revoked;
 };
-// Returns the user who signed the command, or why the signature does not count.
-Result<std::string, base::Problem> signer_of(const Command& command, const UserSignature& signature,
+// Returns the user who signed the text, or why the signature does not count.
+Result<std::string, base::Problem> signer_of(const std::string& text, const UserSignature& signature,
                                              const Authority& authority, keys::Instant now);
 
 // Returns why the user may not give such a command to the board; empty: the role suffices, and the board is one of the
@@ -49,11 +51,32 @@ class BoardUsers {
   };
   // Judges a command to this board, which runs `plant`.
   [[nodiscard]] Verdict judge(const Command& command, const std::string& plant) const;
-  // Replaces the list of users of the plant, durably. A problem: it is no list.
-  Result<void, base::Problem> replace(const std::string& plant, const std::string& list) const;
+
+  // Returns which list of users of the plant this board has, as the text of a UserListId; empty: none.
+  [[nodiscard]] std::string id(const std::string& plant) const;
+  // Returns the text of the list if it is newer than that with this id; empty: the board has none, or no newer one.
+  [[nodiscard]] std::string newer_than(const std::string& plant, const std::string& id) const;
+  // Replaces the list of users of the plant by a newer one, durably. A problem: it is no list, not signed by a deployer
+  // or an administrator of the list that it replaces, or not newer.
+  Result<void, base::Problem> replace(const std::string& plant, const std::string& text) const;
+  // Does the same with the list of another board, and logs it. Returns what was done, for people.
+  Result<std::string, base::Problem> take(const std::string& plant, const std::string& text) const;
 
  private:
   [[nodiscard]] std::filesystem::path file_of(const std::string& plant) const;
+  [[nodiscard]] std::optional<UserList> stored(const std::string& plant) const;
+  [[nodiscard]] config::PlantUsers users_of(const std::string& plant) const;
+  // Returns who signed: an empty name is that of a deployer, or of anyone if the board has no keys.
+  [[nodiscard]] Result<std::string, base::Problem> signer(const std::string& plant, const std::string& text,
+                                                          const std::string& signature) const;
+  // Returns who has signed a list, if that suffices to replace the board's own.
+  [[nodiscard]] Result<std::string, base::Problem> author_of(const UserList& list) const;
+  struct Accepted {
+    UserList list;
+    std::string author;
+  };
+  [[nodiscard]] Result<Accepted, base::Problem> accept(const std::string& plant, const std::string& text) const;
+  [[nodiscard]] Result<void, base::Problem> store(const UserList& list) const;
   [[nodiscard]] std::string beyond_limits(const config::PlantUser& user, const Command& command) const;
 
   std::string board_;

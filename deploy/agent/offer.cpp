@@ -11,10 +11,14 @@
 namespace indurop::deploy {
 
 std::optional<BlobServer::Blob> offer(const std::string& name, const Offered& from) {
-  const auto& [board, state, values, verify, pools] = from;
+  const auto& [board, state, values, verify, pools, users] = from;
   const auto text = [](std::string what) { return BlobServer::Blob{{}, std::move(what)}; };
   if (name == kHistoryBlob) {
     return text(state.history_text());
+  }
+  if (name.starts_with(kUsersBlob)) {
+    std::string list = users.newer_than(state.committed().plant, name.substr(kUsersBlob.size()));
+    return list.empty() ? std::nullopt : std::optional(text(std::move(list)));
   }
   if (name == kMirrorBlob) {
     return text(mirror_text(board));

@@ -8,6 +8,7 @@
 
 #include "deploy/agent/agent_state.h"
 #include "deploy/agent/board_pools.h"
+#include "deploy/agent/board_users.h"
 #include "deploy/agent/board_values.h"
 #include "deploy/agent/board_verify.h"
 #include "deploy/link/blob_server.h"
@@ -21,6 +22,7 @@ struct Offered {
   BoardValues& values;
   BoardVerify& verify;
   const BoardPools& pools;
+  const BoardUsers& users;
 };
 // Returns nothing if there is no blob of that name.
 std::optional<BlobServer::Blob> offer(const std::string& name, const Offered& from);

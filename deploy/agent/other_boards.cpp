@@ -40,13 +40,24 @@ std::vector<std::string> OtherBoards::listen(DeployLink& link, const std::string
   return boxes;
 }
 
-std::vector<std::uint64_t> OtherBoards::with_files_of(const std::string& plant, std::uint64_t first) const {
-  std::vector<std::uint64_t> all{first};
+void OtherBoards::step_users(DeployLink& link, const std::string& plant, rt::MonoTime now) {
+  users_.step(link, agents_of(plant), plant, now);
+}
+
+std::vector<std::uint64_t> OtherBoards::agents_of(const std::string& plant) const {
+  std::vector<std::uint64_t> agents;
   for (const auto& [key, other] : boards_) {
-    if (key.first != board_ && key.second != first && other.plant == plant) {
-      all.push_back(key.second);
+    if (key.first != board_ && !plant.empty() && other.plant == plant) {
+      agents.push_back(key.second);
     }
   }
+  return agents;
+}
+
+std::vector<std::uint64_t> OtherBoards::with_files_of(const std::string& plant, std::uint64_t first) const {
+  std::vector<std::uint64_t> all = agents_of(plant);
+  std::erase(all, first);
+  all.insert(all.begin(), first);
   return all;
 }
 

@@ -11,7 +11,10 @@
 #include <vector>
 
 #include "core/base/log.h"
+#include "core/rt/clock.h"
+#include "deploy/agent/board_users.h"
 #include "deploy/agent/box_watch.h"
+#include "deploy/agent/users_from_others.h"
 #include "deploy/link/deploy_link.h"
 #include "deploy/words/deployment_words.h"
 
@@ -19,7 +22,9 @@ namespace indurop::deploy {
 
 class OtherBoards {
  public:
-  OtherBoards(std::string board, const base::Log& log) : board_(std::move(board)), log_(log) {}
+  // `self`: this agent; `users`: of this board.
+  OtherBoards(std::string board, std::uint64_t self, const BoardUsers& users, const base::Log& log)
+      : board_(std::move(board)), log_(log), users_(self, users, log) {}
 
   // Processes what has arrived. Returns why boards of `plant` keep their black boxes, if any does.
   std::vector<std::string> listen(DeployLink& link, const std::string& plant);
@@ -29,9 +34,13 @@ class OtherBoards {
   }
   // Returns the sessions that may have files of a deployment of the plant: `first`, then the agents of its boards.
   [[nodiscard]] std::vector<std::uint64_t> with_files_of(const std::string& plant, std::uint64_t first) const;
+  // Takes a newer list of users from them. Receives the pieces of files that arrive: not while a Fetcher is active.
+  void step_users(DeployLink& link, const std::string& plant, rt::MonoTime now);
   void clear() { boards_.clear(); }
 
  private:
+  // Returns the agents of the other boards of the plant.
+  [[nodiscard]] std::vector<std::uint64_t> agents_of(const std::string& plant) const;
   void warn(const std::string& about);
 
   std::string board_;
@@ -39,6 +48,7 @@ class OtherBoards {
   std::map<std::pair<std::string, std::uint64_t>, BoardReport> boards_;
   std::set<std::string> warned_;
   BoxWatch box_watch_;
+  UsersFromOthers users_;
 };
 
 }  // namespace indurop::deploy

@@ -36,7 +36,7 @@ enum class Action : std::uint8_t {
   AckAlarms,
   ShelveAlarms,  // for the given duration
   UnshelveAlarms,
-  SetUsers,  // target: the plant's list of users as XML (config/users_reader.h), without passwords
+  SetUsers,  // target: text of a UserList (transaction/user_list.h)
   // Exchanges the code of a module. Target: transaction/write_words.h with two lines, its name and the text of an
   // operate::RemoteReload; the file is fetched from the commander, a deployer. The answer is that of an
   // operate::RemoteReloadReply.

@@ -165,6 +165,9 @@ inline constexpr const char* kInstalledRelease = "installed";
 inline constexpr const char* kCannotBeRun = "cannot be run, see the log of the agent";
 // Blob name in place of a digest: the list of a board's earlier deployments, as JSON.
 inline constexpr const char* kHistoryBlob = "history";
+// Blob name: the list of users of the plant (transaction/user_list.h), if the board has a newer one than that of the id
+// after this prefix; without an id the one it has.
+inline constexpr std::string_view kUsersBlob = "users/";
 // Blob name: the variables that the board's node currently reads from other boards, and their age.
 inline constexpr const char* kMirrorBlob = "mirror";
 // Blob name: the current run block of the board's node (node_texts.h), for remote tools.

@@ -2,6 +2,7 @@
 // Users command boards from afar with keys of their own: role and limits of the plant's list decide, whatever name a
 // command claims, and the audit log of the board names who did what and who was refused.
 
+#include <algorithm>
 #include <fstream>
 
 #include "agents_fixture.h"
@@ -120,6 +121,49 @@ TEST_F(RemoteUsers, Change_nothing_that_the_audit_log_cannot_take) {
   ASSERT_EQ(after.size(), 4U) << after;  // of the start and the write
   EXPECT_EQ(after[2]["outcome"], "begun");
   EXPECT_EQ(after[3]["outcome"], "done");
+}
+
+TEST_F(RemoteUsers, Lose_their_rights_also_on_a_board_that_was_off) {
+  list({{"anna", "--role", "operate"}, {"ben", "--role", "administer"}});
+  ASSERT_EQ(send(path("keys")).code, 0);
+  ASSERT_EQ(as("anna", {"set", "torque=1"}).code, 0);
+  stop_agent("a", SIGKILL);
+  list({{"ben", "--role", "administer"}, {"carl", "--role", "administer"}});
+  const Outcome sent = send(path("keys/users/ben"));
+  EXPECT_EQ(sent.code, 6) << sent.out;
+  EXPECT_THAT(sent.err, HasSubstr("takes this one from another board"));
+  start_agent("a");
+  ASSERT_TRUE(wait_until([&] {
+    return as("anna", {"set", "torque=2"}).err.find("anna is not in this board's list") != std::string::npos;
+  })) << "without another users send";
+  const Json log = audit();
+  const auto taken =
+      std::find_if(log.begin(), log.end(), [](const Json& entry) { return entry["from"] == "another board"; });
+  ASSERT_NE(taken, log.end()) << log;
+  EXPECT_EQ((*taken)["who"], "ben");
+  EXPECT_EQ((*taken)["action"], "set users");
+
+  // Carl became an administrator while the board was off: it knows that from the list, so his own list counts.
+  list({{"anna", "--role", "operate"}, {"carl", "--role", "administer"}});
+  EXPECT_EQ(send(path("keys/users/carl")).code, 0);
+  EXPECT_TRUE(wait_until([&] { return as("anna", {"set", "torque=3"}).code == 0; }));
+}
+
+TEST_F(RemoteUsers, Are_not_made_by_one_whom_the_board_does_not_know_as_administrator) {
+  list({{"anna", "--role", "operate"}});
+  ASSERT_EQ(send(path("keys")).code, 0);
+  stop_agent("a", SIGKILL);
+  list({{"ben", "--role", "administer"}});
+  ASSERT_EQ(send(path("keys")).code, 6);
+  list({{"ben", "--role", "administer"}, {"carl", "--role", "operate"}});
+  ASSERT_EQ(send(path("keys/users/ben")).code, 6);
+  start_agent("a");
+  // Its own list, of a deployer, does not know ben, and the one between them is gone.
+  ASSERT_TRUE(agent("a").says("was not taken: ben is not in"));
+  EXPECT_THAT(as("carl", {"set", "torque=1"}).err, HasSubstr("carl is not in this board's list"));
+  EXPECT_EQ(as("anna", {"set", "torque=1"}).code, 0) << "its own list is still valid";
+  ASSERT_EQ(send(path("keys")).code, 0);
+  EXPECT_EQ(as("carl", {"set", "torque=1"}).code, 0);
 }
 
 TEST_F(RemoteUsers, Keep_their_rights_when_the_agent_starts_again_and_lose_them_with_their_keys) {

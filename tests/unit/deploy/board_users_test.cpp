@@ -47,7 +47,8 @@ class Signer : public testing::Test {
   }
   std::string signer(const Holder& holder) const { return signer(holder, holder.key); }
   std::string signer_of_text(const std::string& certificate, const std::string& signature) const {
-    const auto sut = signer_of(command_, {signature, certificate}, {"cell", authority_.certificate, revoked_}, now_);
+    const auto sut =
+        signer_of(command_text(command_), {signature, certificate}, {"cell", authority_.certificate, revoked_}, now_);
     return sut ? *sut : sut.error().text;
   }
 

@@ -36,19 +36,11 @@ std::optional<std::vector<mirror::MirroredVariable>> variables_in(const std::str
   return variables;
 }
 
-std::vector<std::uint64_t> agents_of(const BoardRoster& roster) {
-  std::vector<std::uint64_t> agents;
-  for (const auto& [key, entry] : roster.all()) {
-    agents.push_back(key.second);
-  }
-  return agents;
-}
-
 // Returns nodes and indurop-pools that do not run although they should, and alarms: "board control: module Robot is
 // stopped".
 std::vector<std::string> trouble_of(deploy::DeployLink& link, std::uint64_t self, const BoardRoster& roster,
                                     const PoolPrograms& pools) {
-  const auto texts = fetch_texts(link, self, deploy::kAlarmsBlob, agents_of(roster));
+  const auto texts = fetch_texts(link, self, deploy::kAlarmsBlob, roster.agents());
   std::vector<std::string> all;
   for (const auto& [key, entry] : roster.all()) {
     const deploy::BoardReport& board = entry.report;
@@ -72,12 +64,12 @@ std::vector<std::string> trouble_of(deploy::DeployLink& link, std::uint64_t self
 
 BoardAnswers ask(deploy::DeployLink& link, std::uint64_t self, const BoardRoster& roster) {
   BoardAnswers answers;
-  for (const auto& [agent, text] : fetch_texts(link, self, deploy::kMirrorBlob, agents_of(roster))) {
+  for (const auto& [agent, text] : fetch_texts(link, self, deploy::kMirrorBlob, roster.agents())) {
     if (auto variables = variables_in(text)) {
       answers.read.emplace(agent, std::move(*variables));
     }
   }
-  for (const auto& [agent, text] : fetch_texts(link, self, deploy::kPoolsBlob, agents_of(roster))) {
+  for (const auto& [agent, text] : fetch_texts(link, self, deploy::kPoolsBlob, roster.agents())) {
     if (auto program = read_pool_program(text)) {
       answers.pools.emplace(agent, std::move(*program));
     }

@@ -16,10 +16,8 @@
 #include "core/rt/file_lock.h"
 #include "tools/cli/command/password_prompt.h"
 #include "tools/cli/command/pattern_option.h"
+#include "tools/cli/verbs/users_send.h"
 #include "tools/cli/verbs/verbs.h"
-#include "tools/client/board/board_commander.h"
-#include "tools/client/board/board_roster.h"
-#include "tools/client/board/board_table.h"
 #include "tools/client/process/random_word.h"
 #include "tools/client/text/suggest.h"
 #include "tools/client/text/units.h"
@@ -41,8 +39,6 @@ struct UsersRequest {
   std::string plant;
   deploy::LinkSettings link;
 };
-
-constexpr std::int64_t kSendNs = 5'000'000'000;  // to discover boards, and for the answer of each
 
 std::vector<std::string> role_words() {
   return {config::kUserRoleNames.begin(), config::kUserRoleNames.end()};
@@ -286,53 +282,10 @@ int remove(Context& context, const UsersRequest& request) {
   });
 }
 
-// Sends the list to the boards of a plant. They need no hashes: who signs in is decided by indurop serve.
-int send(Context& context, const UsersRequest& given) {
-  UsersRequest request = given;
+int send(Context& context, const UsersRequest& request) {
   int code = kOk;
-  auto users = open_users(context, request, code);
-  if (!users) {
-    return code;
-  }
-  for (config::PlantUser& user : *users) {
-    user.password.clear();
-    user.token.clear();
-  }
-  auto commander = BoardCommander::make(context.out, request.link.keys);
-  if (!commander) {
-    return report(context.out, commander.error());
-  }
-  auto link = open_link(context.out, request.link);
-  if (link == nullptr) {
-    return kUnreachable;
-  }
-  BoardRoster roster;
-  roster.gather(*link, kSendNs, [&] { return roster.complete(); });
-  const auto plant = choose_plant(roster, request.plant);
-  if (!plant) {
-    return report(context.out, with_keys_hint(plant.error(), request.link));
-  }
-  const std::string text = config::users_text(*users);
-  for (const auto& [key, entry] : roster.all()) {
-    if (entry.report.plant != *plant) {
-      continue;
-    }
-    const auto answered =
-        commander->send(*link, request.link.self, entry.report, deploy::Action::SetUsers, text, kSendNs);
-    const bool done = answered && answered->reply.outcome == deploy::Outcome::Done;
-    if (!done) {
-      context.out.error(fmt::format("{} was not changed: {}", key.first,
-                                    printable(answered ? answered->reply.text : answered.error().text)));
-      code = answered ? kFailed : answered.error().code;
-    } else {
-      context.out.line(fmt::format("{} has {} now", key.first, counted(users->size(), "user")));
-    }
-  }
-  for (const std::string& board : missing_boards(roster)) {
-    context.out.error(fmt::format("{} was not heard and keeps the list it has; send it again when it is there", board));
-    code = kUnreachable;
-  }
-  return code;
+  const auto users = open_users(context, request, code);
+  return users ? send_users(context, *users, {request.plant, request.link}) : code;
 }
 
 Action declare_users(base::Options& app, Context& context) {

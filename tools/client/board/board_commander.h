@@ -34,6 +34,8 @@ class BoardCommander {
   Result<Answered, Failure> send(deploy::DeployLink& link, std::uint64_t self, const deploy::BoardReport& board,
                                  deploy::Action action, const std::string& target, std::int64_t timeout_ns,
                                  const std::function<bool()>& meanwhile = {});
+  // Returns the signature of a text by the key that signs commands; empty without one.
+  [[nodiscard]] std::string signature_of(const std::string& text) const { return command_signature(key_, text); }
 
  private:
   explicit BoardCommander(CommandKey key) : key_(std::move(key)) {}

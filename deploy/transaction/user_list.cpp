@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "deploy/transaction/user_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/keys/digest.h"
+
+namespace indurop::deploy {
+namespace {
+
+constexpr std::string_view kMark = "indurop users\n";
+
+// Removes one line from the text and returns it.
+std::string_view line_of(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+std::optional<std::uint64_t> number_of(std::string_view text) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+}  // namespace
+
+std::string text_of(const UserList& list) {
+  return fmt::format("{}{}\n{}\n{}\n{}{}", kMark, list.plant, list.serial, list.signature.size(), list.signature,
+                     list.users);
+}
+
+std::optional<UserList> read_user_list(std::string_view text) {
+  if (!text.starts_with(kMark)) {
+    return std::nullopt;
+  }
+  text.remove_prefix(kMark.size());
+  UserList list;
+  list.plant = line_of(text);
+  const auto serial = number_of(line_of(text));
+  const auto size = number_of(line_of(text));
+  if (!serial || !size || *size > text.size()) {
+    return std::nullopt;
+  }
+  list.serial = *serial;
+  list.signature = text.substr(0, *size);
+  list.users = text.substr(*size);
+  return list;
+}
+
+std::string signed_text(const UserList& list) {
+  return fmt::format("indurop list of users\n{}\n{}\n{}", list.plant, list.serial, list.users);
+}
+
+UserListId id_of(const UserList& list) {
+  return {list.serial, keys::digest_of(list.users)};
+}
+
+std::string text_of(const UserListId& id) {
+  return fmt::format("{}-{}", id.serial, id.digest);
+}
+
+std::optional<UserListId> read_user_list_id(std::string_view text) {
+  const std::size_t dash = std::min(text.find('-'), text.size());
+  const auto serial = number_of(text.substr(0, dash));
+  const std::string_view digest = text.substr(std::min(dash + 1, text.size()));
+  return serial && keys::is_digest(digest) ? std::optional(UserListId{*serial, std::string(digest)}) : std::nullopt;
+}
+
+}  // namespace indurop::deploy

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/verbs/users_send.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "config/users_reader.h"
+#include "deploy/transaction/user_list.h"
+#include "tools/client/board/board_commander.h"
+#include "tools/client/board/board_roster.h"
+#include "tools/client/board/board_table.h"
+#include "tools/client/board/board_texts.h"
+#include "tools/client/text/units.h"
+
+namespace indurop::tools {
+namespace {
+
+constexpr std::int64_t kSendNs = 5'000'000'000;  // to discover boards, and for the answer of each
+
+// Returns a list with these users that is newer than those of the boards.
+deploy::UserList next_list(const std::string& plant, std::vector<config::PlantUser> users, deploy::DeployLink& link,
+                           std::uint64_t self, const BoardRoster& roster) {
+  deploy::UserList list{plant, 0, {}, {}};
+  for (const auto& [agent, text] : fetch_texts(link, self, std::string(deploy::kUsersBlob), roster.agents())) {
+    if (const auto known = deploy::read_user_list(text); known && known->plant == plant) {
+      list.serial = std::max(list.serial, known->serial);
+    }
+  }
+  ++list.serial;
+  for (config::PlantUser& user : users) {  // who signs in is decided by indurop serve
+    user.password.clear();
+    user.token.clear();
+  }
+  list.users = config::users_text(users);
+  return list;
+}
+
+}  // namespace
+
+int send_users(Context& context, const std::vector<config::PlantUser>& users, SendRequest request) {
+  auto commander = BoardCommander::make(context.out, request.link.keys);
+  if (!commander) {
+    return report(context.out, commander.error());
+  }
+  auto link = open_link(context.out, request.link);
+  if (link == nullptr) {
+    return kUnreachable;
+  }
+  BoardRoster roster;
+  roster.gather(*link, kSendNs, [&] { return roster.complete(); });
+  const auto plant = choose_plant(roster, request.plant);
+  if (!plant) {
+    return report(context.out, with_keys_hint(plant.error(), request.link));
+  }
+  int code = kOk;
+  deploy::UserList list = next_list(*plant, users, *link, request.link.self, roster);
+  list.signature = commander->signature_of(deploy::signed_text(list));
+  for (const auto& [key, entry] : roster.all()) {
+    if (entry.report.plant != *plant) {
+      continue;
+    }
+    const auto answered = commander->send(*link, request.link.self, entry.report, deploy::Action::SetUsers,
+                                          deploy::text_of(list), kSendNs);
+    const bool done = answered && answered->reply.outcome == deploy::Outcome::Done;
+    if (!done) {
+      context.out.error(fmt::format("{} was not changed: {}", key.first,
+                                    printable(answered ? answered->reply.text : answered.error().text)));
+      code = answered ? kFailed : answered.error().code;
+    } else {
+      context.out.line(fmt::format("{} has {} now", key.first, counted(users.size(), "user")));
+    }
+  }
+  for (const std::string& board : missing_boards(roster)) {
+    context.out.error(fmt::format(
+        "{} was not heard: it keeps the list it has until it is there, and then takes this one from another board",
+        board));
+    code = kUnreachable;
+  }
+  return code;
+}
+
+}  // namespace indurop::tools
