@@ -3,9 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <utility>
+
 #include "core/base/file_problem.h"
 #include "core/base/read_file.h"
 #include "core/keys/credentials.h"
+#include "core/keys/participant_keys.h"
 #include "core/keys/plant_keys.h"
 
 namespace indurop::serve {
@@ -22,12 +26,8 @@ Result<ClientCertificates, base::Problem> ClientCertificates::open(const std::fi
   if (!facts) {
     return base::Problem{fmt::format("{} is not a certificate", authority.string())};
   }
-  const std::filesystem::path default_list = authority.parent_path() / "revoked.pem";
-  std::error_code ignored;
-  const bool of_plant = keys::is_plant_authority(*facts);
-  if (!revoked.empty() || of_plant || std::filesystem::exists(default_list, ignored)) {
-    made.revoked_ = revoked.empty() ? default_list : revoked;
-  }
+  made.revoked_ = revoked.empty() ? authority.parent_path() / "revoked.pem" : revoked;
+  *made.needs_list_ = !revoked.empty() || keys::is_plant_authority(*facts);
   if (const auto list = made.read_list(); !list) {
     return base::Problem{list.error().text + "; copy the revoked.pem of the plant's keys into the folder of " +
                          authority.string() + ", or name it with --revoked"};
@@ -36,10 +36,11 @@ Result<ClientCertificates, base::Problem> ClientCertificates::open(const std::fi
 }
 
 Result<std::string, base::Problem> ClientCertificates::read_list() const {
-  if (revoked_.empty()) {
+  auto text = base::read_file(revoked_);
+  if (!text && text.error().sys_errno == ENOENT && !*needs_list_) {
     return std::string();
   }
-  auto text = base::read_file(revoked_);
+  *needs_list_ = true;
   if (!text) {
     return base::Problem{base::cannot_read(revoked_.string(), text.error())};
   }
@@ -61,17 +62,26 @@ Client ClientCertificates::identify(const std::string& certificate) const {
   if (authority_.empty() || !facts || facts->common_name.empty()) {
     return {{}, Role::Unknown, "the certificate names no user", {}, {}};
   }
+  const auto refused = [&facts](std::string why) {
+    return Client{facts->common_name, Role::Unknown, std::move(why), {}, {}};
+  };
+  // TLS checks this when the connection begins, which may be long ago.
+  const keys::Instant now = keys::instant_now();
+  if (now < facts->validity.from || now > facts->validity.until) {
+    return refused(fmt::format("the certificate of {} is not valid at this time", facts->common_name));
+  }
   const auto list = read_list();
   if (!list) {
-    return {
-        facts->common_name, Role::Unknown, "which certificates were revoked cannot be read, so none counts", {}, {}};
+    return refused("which certificates were revoked cannot be read, so none counts");
   }
   if (!list->empty() && keys::is_revoked(certificate, *list)) {
-    return {facts->common_name,
-            Role::Unknown,
-            fmt::format("the certificate of {} was revoked", facts->common_name),
-            {},
-            {}};
+    return refused(fmt::format("the certificate of {} was revoked", facts->common_name));
+  }
+  if (!list->empty() && !keys::issued_by(certificate, authority_)) {
+    return refused(
+        fmt::format("the certificate of {} is below another authority, whose list of revoked certificates is "
+                    "not known",
+                    facts->common_name));
   }
   // Certificates of other authorities define no role: their clients have the rights of one with a token.
   const auto role = keys::plant_role(*facts);

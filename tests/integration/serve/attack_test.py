@@ -339,6 +339,21 @@ def test_a_certificate_that_is_revoked_counts_no_more(setting):
     assert noted[0]["who"] == "bob" and "revoked" in noted[0]["outcome"], noted
 
 
+def test_a_list_that_cannot_be_read_is_a_refusal_and_no_broken_connection(setting):
+    """OpenSSL: the error queue of the thread has to be empty before each SSL_read() (SSL_get_error(3))."""
+    folder, _ = plant_keys(setting)
+    server = server_for(setting, False, True)
+    order = get(f"{API}/boards/none/set").replace("GET", "POST", 1)
+    for content in ("", "-----BEGIN X509 CRL-----\nnone\n-----END X509 CRL-----\n"):
+        good = (folder / "revoked.pem").read_text()
+        with contextlib.closing(connect(server.port, certificate=folder / "deployer", tls=True)) as stays:
+            assert status_of(stays, get()) == 200
+            (folder / "revoked.pem").write_text(content)
+            assert status_of(stays, order) == 401, content
+        (folder / "revoked.pem").write_text(good)
+        assert ask(server.port, order, certificate=folder / "deployer", tls=True) == 404, "it counts again"
+
+
 def test_a_slow_tls_handshake_locks_no_client_out(setting):
     plant_keys(setting)
     server = server_for(setting, False, True)

@@ -36,7 +36,6 @@ Wire::Wire(base::Descriptor file, SSL_CTX* context) : file_(std::move(file)) {
 Wire::State Wire::after_tls(int result) {
   const int error = SSL_get_error(tls_.get(), result);
   waits_for_room_ = error == SSL_ERROR_WANT_WRITE;
-  ERR_clear_error();
   if (error == SSL_ERROR_WANT_READ || error == SSL_ERROR_WANT_WRITE) {
     return State::Later;
   }
@@ -51,6 +50,7 @@ Wire::State Wire::read(std::string& into) {
   std::array<char, kPiece> buffer{};
   if (tls_ != nullptr) {
     std::size_t got = 0;
+    ERR_clear_error();  // of a certificate or list that could not be read: SSL_get_error() would take it for its own
     const int result = SSL_read_ex(tls_.get(), buffer.data(), buffer.size(), &got);
     if (result != 1) {
       return after_tls(result);
@@ -73,6 +73,7 @@ Wire::State Wire::write(std::string_view bytes, std::size_t& taken) {
     return State::Ended;
   }
   if (tls_ != nullptr) {
+    ERR_clear_error();
     const int result = SSL_write_ex(tls_.get(), bytes.data(), bytes.size(), &taken);
     if (result != 1) {
       return after_tls(result);
