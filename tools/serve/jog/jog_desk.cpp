@@ -85,7 +85,7 @@ Result<JogDesk::Switch, Problem> JogDesk::switch_of(const vars::Store& store, co
 }
 
 template <class Change>
-bool JogDesk::Hand::write(Change change) {
+bool JogDesk::Hand::press(Change change) {
   std::vector<std::uint8_t> bytes(place.type.size());
   return store.read(*place.entry, 0, bytes).ok() && change(std::span<std::uint8_t>(bytes)) &&
          store.write(*place.entry, 0, bytes).ok();
@@ -106,13 +106,16 @@ const char* JogDesk::Hand::send_beat() {
   bool own = true;
   const bool may =
       !store.retired() && store.header().generation.load() == run && vars::lock_of(board).lock == vars::WriteLock::None;
-  if (may && write([&](std::span<std::uint8_t> bytes) {
-        std::uint32_t found = 0;
-        std::memcpy(&found, bytes.data() + place.beat_offset, sizeof found);
-        own = found == last && is_pressed(bytes);
-        return own && schema::write_field(place.type, "nBeat", beat, bytes);
-      })) {
-    return nullptr;
+  std::vector<std::uint8_t> bytes(place.type.size());
+  if (may && store.read(*place.entry, 0, bytes).ok()) {
+    std::uint32_t found = 0;
+    std::memcpy(&found, bytes.data() + place.beat_offset, sizeof found);
+    own = found == last && is_pressed(bytes);
+    // Only this field: another client may release the switch just now.
+    const std::span beats(reinterpret_cast<const std::uint8_t*>(&beat), sizeof beat);
+    if (own && store.write(*place.entry, place.beat_offset, beats).ok()) {
+      return nullptr;
+    }
   }
   release();
   return own ? "ended: it can no longer be written" : "ended: another client has written ROBOT_JOG";
@@ -122,7 +125,7 @@ void JogDesk::Hand::release() {
   if (path) {
     path->stop();
   }
-  (void)write([this](std::span<std::uint8_t> bytes) { return schema::write_field(place.type, "bEnable", 0.0, bytes); });
+  (void)store.write(*place.entry, place.enable_offset, std::vector<std::uint8_t>(place.enable_size));
 }
 
 JogDesk::~JogDesk() {
@@ -208,7 +211,7 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
                              {reinterpret_cast<std::uint8_t*>(&pressed.beat), sizeof pressed.beat});
     pressed.count_beat();
     const schema::Type& type = pressed.place.type;
-    const bool written = pressed.write([&](std::span<std::uint8_t> bytes) {
+    const bool written = pressed.press([&](std::span<std::uint8_t> bytes) {
       return schema::write_field(type, "bEnable", 1.0, bytes) && schema::write_field(type, "eFrame", *frame, bytes) &&
              schema::write_field(type, "dSpeed", speed, bytes) &&
              schema::write_field(type, "nBeat", pressed.beat, bytes) &&

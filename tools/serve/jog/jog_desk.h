@@ -86,7 +86,7 @@ class JogDesk {
     const char* send_beat();
     // `change` writes fields into the value of the switch. Returns false if it cannot be written.
     template <class Change>
-    bool write(Change change);
+    bool press(Change change);
     void release();
   };
   static Result<Switch, base::Problem> switch_of(const vars::Store& store, const std::string& robot);
