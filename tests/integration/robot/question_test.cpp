@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Questions of jobs in a node: asked and answered from the command line, and by a PLC program.
+#include <future>
+#include <string>
+
 #include "robot_node.h"
 
 namespace indurop::test {
@@ -52,6 +55,26 @@ TEST_F(RobotNode, Its_questions_are_answered_from_a_terminal) {
   const std::string audit = indurop({"audit"}).out;
   EXPECT_THAT(audit, HasSubstr("ROBOT_ANSWER"));
   EXPECT_THAT(audit, HasSubstr("the left one is empty"));
+}
+
+TEST_F(RobotNode, Of_two_answers_at_once_only_that_which_counts_succeeds) {
+  begin("LOOP 20\nASK tray = \"Which tray?\" CHOICE \"left\", \"right\"\nSET O8 = tray\nEND\n");
+  ASSERT_EQ(serve("eOpCode: 1"), 0);
+  set("PLC_ROBOT::ROBOT_MODULE_SERVICE", "{eOpCode: 11, nJob: 1, nRequest: " + std::to_string(next_request()) + "}");
+  for (int i = 0; i < 20; ++i) {
+    const Outcome open = indurop({"robot", "question", "--timeout", "60s", "-o", "json"});
+    ASSERT_EQ(open.code, 0) << open.err;
+    const std::string asked = std::to_string(open.json()["questions"][0]["number"].get<std::uint32_t>());
+    auto other = std::async(std::launch::async, [&] {
+      return indurop({"robot", "answer", "left", "--question", asked});
+    });
+    const Outcome right = indurop({"robot", "answer", "right", "--question", asked});
+    const Outcome left = other.get();
+    ASSERT_TRUE(wait_until([&] { return number("PLC_ROBOT::ROBOT_QUESTION.nNumber") != std::stod(asked); }));
+    EXPECT_FALSE(left.code == 0 && right.code == 0) << left.err << right.err;
+    EXPECT_TRUE(left.code != 0 || number("PLC_ROBOT::O8") == 1) << left.err << right.err;
+    EXPECT_TRUE(right.code != 0 || number("PLC_ROBOT::O8") == 2) << left.err << right.err;
+  }
 }
 
 TEST_F(RobotNode, Its_questions_are_answered_by_a_plc_program) {

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <optional>
+#include <random>
+#include <string>
 #include <vector>
 
 #include "core/rt/clock.h"
@@ -66,6 +69,16 @@ std::optional<double> value_of(const RobotQuestion& question, const std::string&
                                           : static_cast<double>(choice - question.choices.begin()) + 1;
 }
 
+// Another one than that of any client that answers at the same time: so each knows whether its own was received.
+std::uint32_t new_number(std::uint64_t acknowledged) {
+  std::random_device random;
+  std::uint32_t number = 0;
+  while (number == 0 || number == acknowledged) {
+    number = random();
+  }
+  return number;
+}
+
 }  // namespace
 
 int show_question(Context& context, const RobotChoice& choice, std::int64_t wait_ns) {
@@ -115,7 +128,8 @@ int answer_question(Context& context, const RobotChoice& choice, const RobotAnsw
                                   question.text, answers_text(question)));
     return kFailed;
   }
-  const auto number = static_cast<std::uint32_t>(question.acknowledged + 1);
+  const std::uint64_t before = question.acknowledged;
+  const std::uint32_t number = new_number(before);
   const std::uint64_t asked = answer.question != 0 ? answer.question : question.number;
   const auto wanted = read_assignments(context, *store, "robot answer",
                                        {fmt::format("{}::ROBOT_ANSWER={{nRequest: {}, nQuestion: {}, dAnswer: {}}}",
@@ -127,16 +141,17 @@ int answer_question(Context& context, const RobotChoice& choice, const RobotAnsw
     return code;
   }
   constexpr std::int64_t kMaxWaitNs = 2'000'000'000;
-  const auto is_received = [&](const RobotQuestion& one) { return one.acknowledged == number; };
+  const auto is_received = [&](const RobotQuestion& one) { return one.acknowledged != before; };
   const std::string text = question.text;
   if (const int code = poll_question(context, *store, choice, kMaxWaitNs, question, is_received); code != kOk) {
     return code;
   }
-  if (!is_received(question) || !question.reason.empty()) {
-    context.out.error(is_received(question)
-                          ? question.reason
-                          : fmt::format("the robot does not receive the answer; does it run, or does another program "
-                                        "write {}::ROBOT_ANSWER?",
+  if (question.acknowledged != number || !question.reason.empty()) {
+    context.out.error(question.acknowledged == number ? question.reason
+                      : is_received(question)
+                          ? "another client answers, too: which of the answers counts is not known"
+                          : fmt::format("the robot does not receive the answer; does it run, or does "
+                                        "another program write {}::ROBOT_ANSWER?",
                                         choice.space));
     return kFailed;
   }

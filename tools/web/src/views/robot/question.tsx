@@ -56,6 +56,12 @@ function Answers({ asked, disabled, answer }: { asked: Asked; disabled: boolean;
     </form>);
 }
 
+// Another one than that of any client that answers at the same time: its rejection is not taken for that of this answer.
+function new_number(acknowledged: number): number {
+  const number = crypto.getRandomValues(new Uint32Array(1))[0];
+  return number === 0 || number === acknowledged ? new_number(acknowledged) : number;
+}
+
 interface Props {
   board: string;
   scope: string;
@@ -72,7 +78,7 @@ export function Question({ board, scope, down, may_answer }: Props) {
   const message = problem || rejected;
   if (!asked || (asked.number === 0 && !message)) return null;
   const answer = async (value: number, text: string): Promise<void> => {
-    const request = asked.acknowledged + 1;
+    const request = new_number(asked.acknowledged);
     set_sent(request);
     set_problem("");
     try {
