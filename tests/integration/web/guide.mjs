@@ -92,6 +92,30 @@ await browser.run({
     for (const action of ["jog", "end of jog", "write guided path"]) check(audit.includes(action), `no entry of ${action}: ${audit}`);
   },
 
+  // ISO 9241-171: a key that is held down by accident, or by a hand that trembles, acts once.
+  async "A button acts once while Enter is held down"() {
+    const page = await open();
+    const held = async (button, value, name) => {
+      await page.focus(button);
+      const before = Number(await value());
+      const seen = [];
+      for (const end = Date.now() + 2000; Date.now() < end;) {
+        await page.keyboard.down("Enter");  // from the second time on a repetition
+        seen.push(Number(await value()));
+      }
+      await page.keyboard.up("Enter");
+      const changes = seen.filter((one, i) => one !== (i === 0 ? before : seen[i - 1])).length;
+      check(changes === 1, `${name}: ${seen.join(" ")}`);
+    };
+    const hold = "section[aria-label=Jogging] button[aria-pressed]";
+    await held(hold, () => value_of("ROBOT_HOLD"), "ROBOT_HOLD");
+    await page.$eval(hold, (button) => button.click());
+    await until("it is still held", async () => Number(await value_of("ROBOT_HOLD")) === 0);
+    await held(`${PANEL} .bar button`, async () => (await value_of("ROBOT_JOG")).bEnable, "ROBOT_JOG.bEnable");
+    await page.close({ runBeforeUnload: false });
+    await until("the switch is not released", async () => !(await value_of("ROBOT_JOG")).bEnable);
+  },
+
   async "Guiding ends with the page"() {
     const page = await open();
     await press(page, "Start guiding");

@@ -42,5 +42,8 @@ function Page() {
 take_token_from_address();
 // The browser does not reload the page for an address that differs only in its token.
 window.addEventListener("hashchange", () => { if (take_token_from_address()) location.reload(); });
+// A key that is held down acts once. A browser clicks a button at each repetition of Enter: one whose meaning changes,
+// such as Hold and Resume, would let the robot move again.
+window.addEventListener("keydown", (event) => { if (event.repeat && event.key === "Enter" && !(event.target instanceof HTMLTextAreaElement)) event.preventDefault(); }, true);
 start_polling();
 render(<Page />, document.getElementById("page")!);
