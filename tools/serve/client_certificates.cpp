@@ -57,6 +57,11 @@ bool ClientCertificates::is_person(const std::string& certificate) {
                    role == keys::Role::User);
 }
 
+bool ClientCertificates::is_of_plant(const std::string& certificate) {
+  const auto facts = keys::read_certificate(certificate);
+  return facts && keys::is_plant_certificate(*facts);
+}
+
 Client ClientCertificates::identify(const std::string& certificate) const {
   const auto facts = keys::read_certificate(certificate);
   if (authority_.empty() || !facts || facts->common_name.empty()) {

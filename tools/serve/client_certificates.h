@@ -29,6 +29,8 @@ class ClientCertificates {
   [[nodiscard]] Client identify(const std::string& certificate) const;
   // Returns false for certificates of a plant's boards and tools.
   [[nodiscard]] static bool is_person(const std::string& certificate);
+  // Returns false for certificates of authorities other than those of plants.
+  [[nodiscard]] static bool is_of_plant(const std::string& certificate);
 
  private:
   // Returns the revocation list, "" if there is none. Errors: no certificate can be checked.

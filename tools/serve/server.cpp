@@ -83,7 +83,10 @@ Client Server::identify(const std::string& certificate) {
   if (!client.refusal.empty() || !ClientCertificates::is_person(certificate)) {
     return client;
   }
-  return users_.client_certified(std::move(client));
+  // Who is removed from the list must not get more rights by that: the list says what clients of an authority may that
+  // knows nothing of the plant.
+  const Role unlisted = ClientCertificates::is_of_plant(certificate) ? client.role : Role::Look;
+  return users_.client_certified(std::move(client), unlisted);
 }
 
 std::optional<Reply> Server::refuse_now(Request& request) {

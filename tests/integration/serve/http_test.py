@@ -448,6 +448,26 @@ def test_tls_and_client_certificates(setting):
         pass
 
 
+def test_who_is_removed_from_the_list_gets_no_more_rights_by_a_certificate(setting):
+    """IEC 62443-3-3, SR 1.3 and 2.1: the list, and not an authority that knows nothing of the plant, says who may write."""
+    for name in ("server", "ca"):
+        make_certificate(setting, name, signs=name == "ca")
+    make_certificate(setting, "anna", authority="ca")
+    users = setting.folder / "users.xml"
+
+    def write(text):
+        users.write_text(f"<users>{text}</users>")
+        users.chmod(0o600)
+
+    write('<user name="anna" role="operate"/>')
+    server = setting.start_server("--write", "--bind", "0.0.0.0", "--cert", setting.folder / "server.pem", "--key",
+                                  setting.folder / "server.key", "--client-ca", setting.folder / "ca.pem", "--users", users)
+    role = lambda: ask_tls(setting, server.port, API + "/session", certificate="anna")[1]["role"]
+    assert role() == "operate"
+    write("")
+    assert role() == "look"
+
+
 def test_clients_turn_away_an_expired_certificate(setting):
     make_certificate(setting, "server", days=0)
     server = setting.start_server("--bind", "0.0.0.0", "--cert", setting.folder / "server.pem", "--key",

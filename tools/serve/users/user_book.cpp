@@ -110,7 +110,7 @@ std::optional<Client> UserBook::client_named(std::string_view name) {
   return user != nullptr ? std::optional(client_of(*user)) : std::nullopt;
 }
 
-Client UserBook::client_certified(Client client) {
+Client UserBook::client_certified(Client client, Role unlisted) {
   if (!used()) {
     return client;
   }
@@ -121,6 +121,7 @@ Client UserBook::client_certified(Client client) {
         client.name, Role::Unknown, "the list of users cannot be used, so no certificate of a person counts", {}, {}};
   }
   const config::PlantUser* const user = users_.find(client.name);
+  client.role = unlisted;
   return user != nullptr ? client_of(*user) : std::move(client);
 }
 

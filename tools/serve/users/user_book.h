@@ -45,9 +45,10 @@ class UserBook final : public Accounts {
   std::optional<Client> client_of_token(std::string_view token, bool use = true) override;
   // Returns what the list says of the user with this name; nothing: the list does not name it.
   std::optional<Client> client_named(std::string_view name);
-  // Returns the client that a certificate names, with the role and limits of the list if the list names it. While the
-  // list cannot be used, the client is refused: the list may grant less than the certificate does.
-  Client client_certified(Client client);
+  // Returns the client that a certificate names, with the role and limits of the list; if the list does not name it,
+  // with the role `unlisted`. While the list cannot be used, the client is refused: the list may grant less than the
+  // certificate does.
+  Client client_certified(Client client, Role unlisted);
 
   // Verifies the password, which takes some 0.1 s whether there is such a user or not. Returns the token of a new
   // session, or nothing. The session that was used the longest time ago ends if there are too many.

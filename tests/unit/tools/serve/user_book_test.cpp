@@ -105,21 +105,22 @@ TEST_F(UserBookTest, A_certificate_does_not_count_while_the_list_that_may_limit_
   write({dora});
   UserBook sut(file(), &now_ns);
   const Client deployer{"dora", Role::Program, {}, {}, {}};
-  EXPECT_EQ(sut.client_certified(deployer).role, Role::Look);
-  EXPECT_EQ(sut.client_certified({"another", Role::Program, {}, {}, {}}).role, Role::Program) << "not in the list";
+  EXPECT_EQ(sut.client_certified(deployer, Role::Program).role, Role::Look);
+  EXPECT_EQ(sut.client_certified({"another", Role::Program, {}, {}, {}}, Role::Program).role, Role::Program);
+  EXPECT_EQ(sut.client_certified({"another", Role::Program, {}, {}, {}}, Role::Look).role, Role::Look) << "not listed";
   std::ofstream(folder_ / "new") << "<users><user name='dora' role='boss'/></users>";
   fs::rename(folder_ / "new", file());
-  EXPECT_EQ(sut.client_certified(deployer).role, Role::Unknown);
-  EXPECT_NE(sut.client_certified(deployer).refusal, "");
+  EXPECT_EQ(sut.client_certified(deployer, Role::Program).role, Role::Unknown);
+  EXPECT_NE(sut.client_certified(deployer, Role::Program).refusal, "");
   fs::remove(file());
-  EXPECT_NE(sut.client_certified(deployer).refusal, "");
+  EXPECT_NE(sut.client_certified(deployer, Role::Program).refusal, "");
   write({dora});
   ::chmod(file().c_str(), 0666);
-  EXPECT_NE(sut.client_certified(deployer).refusal, "") << "others can change it";
+  EXPECT_NE(sut.client_certified(deployer, Role::Program).refusal, "") << "others can change it";
   ::chmod(file().c_str(), 0600);
-  EXPECT_EQ(sut.client_certified(deployer).role, Role::Look);
+  EXPECT_EQ(sut.client_certified(deployer, Role::Program).role, Role::Look);
   UserBook none;
-  EXPECT_EQ(none.client_certified(deployer).role, Role::Program);
+  EXPECT_EQ(none.client_certified(deployer, Role::Program).role, Role::Program);
 }
 
 TEST_F(UserBookTest, A_session_ends_by_sign_out_idling_and_age) {
