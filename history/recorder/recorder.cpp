@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <queue>
 #include <span>
+#include <utility>
 
 #include "history/recorder/run_words.h"
 #include "history/recorder/sources.h"
@@ -109,6 +112,7 @@ void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& 
     }
   }
   held_.resize(follower_.tracks());
+  ends_.resize(follower_.tracks());
   known_.resize(follower_.tracks());
   add_places();
 }
@@ -269,17 +273,39 @@ Result<void, Problem> Recorder::write_run(Held& held) {
   return {};
 }
 
-// Returns false if the track has no run that ended before `until_ns`.
+// Finds the ends of all tracks at one moment: a run that ends while they are read must not be written before an earlier
+// one of a track that was read already. If runs end all the time, there is no such moment.
+void Recorder::find_ends() {
+  constexpr int kTries = 16;
+  bool same = false;
+  for (int i = 0; i < kTries && !same; ++i) {
+    same = true;
+    for (std::size_t track = 0; track < ends_.size(); ++track) {
+      const std::uint64_t end = follower_.end_of(track);
+      same = same && end == ends_[track];
+      ends_[track] = end;
+    }
+  }
+}
+
+// Returns false if the track has no run that is not written yet.
+bool Recorder::read_run(std::size_t track) {
+  std::optional<Held>& held = held_[track];
+  if (held) {
+    return true;
+  }
+  held.emplace();
+  if (!follower_.next(track, held->run, ends_[track])) {
+    held.reset();
+    return false;
+  }
+  add_places();
+  return true;
+}
+
+// Writes the run that was read of the track. Returns false if it did not end before `until_ns`.
 Result<bool, Problem> Recorder::take_run(std::size_t track, std::int64_t until_ns) {
   std::optional<Held>& held = held_[track];
-  if (!held) {
-    held.emplace();
-    if (!follower_.next(track, held->run)) {
-      held.reset();
-      return false;
-    }
-    add_places();
-  }
   if (held->run.tail.end_ns >= until_ns) {
     return false;
   }
@@ -314,14 +340,29 @@ Result<void, Problem> Recorder::take(std::int64_t until_ns) {
   }
   keyframes_.read(about_.node, follower_.header(), modules,
                   [this](std::uint32_t module) { return records_inputs(module); });
-  for (std::size_t track = 0; track < follower_.tracks(); ++track) {
-    for (bool more = true; more;) {
-      auto taken = take_run(track, until_ns);
-      if (!taken) {
-        return std::move(taken).error();
-      }
-      more = *taken;
+  find_ends();
+  using Next = std::pair<std::uint64_t, std::size_t>;  // when it began, among all runs; its track
+  std::priority_queue<Next, std::vector<Next>, std::greater<>> next;
+  const auto read = [&](std::size_t track) {
+    if (read_run(track)) {
+      next.emplace(held_[track]->run.tail.order, track);
     }
+  };
+  for (std::size_t track = 0; track < follower_.tracks(); ++track) {
+    read(track);
+  }
+  while (!next.empty()) {
+    const std::size_t track = next.top().second;
+    next.pop();
+    auto taken = take_run(track, until_ns);
+    if (!taken) {
+      return std::move(taken).error();
+    }
+    if (*taken) {
+      read(track);
+    }
+  }
+  for (std::size_t track = 0; track < follower_.tracks(); ++track) {
     if (const std::uint64_t lost = follower_.lost(track); lost > 0) {
       counts_.lost[follower_.module_of(track)] = lost;
     }

@@ -62,8 +62,9 @@ class Recorder {
   void learn();
   // Keeps the last known values of every module, for go_on_in(). To be called before the first take().
   void remember() { remembers_ = true; }
-  // Takes the runs that ended before `until_ns` (the node's time). Errors: those of the disk; what was not taken can be
-  // taken later, and nothing is written twice.
+  // Takes the runs that ended before `until_ns` (the node's time), in the order in which they began: in virtual time,
+  // messages of many runs have the same time, and only their order in the file says which came first. Errors: those of
+  // the disk; what was not taken can be taken later, and nothing is written twice.
   Result<void, base::Problem> take(std::int64_t until_ns = std::numeric_limits<std::int64_t>::max());
   // The end of the earliest run that take() left for later.
   [[nodiscard]] std::optional<std::int64_t> waiting_ns() const noexcept;
@@ -118,6 +119,8 @@ class Recorder {
   Result<void, base::Problem> write_known_values();
   void note(std::size_t track, const tape::Run& run);
   Result<void, base::Problem> write_version(std::size_t track, const tape::Run& run);
+  void find_ends();
+  bool read_run(std::size_t track);
   Result<bool, base::Problem> take_run(std::size_t track, std::int64_t until_ns);
   Result<void, base::Problem> write_run(Held& held);
   Result<void, base::Problem> write_part(const tape::Run& run, std::size_t part);
@@ -159,6 +162,7 @@ class Recorder {
   bool first_values_written_ = false;
   std::vector<Known> known_;               // by track
   std::vector<std::optional<Held>> held_;  // by track
+  std::vector<std::uint64_t> ends_;        // of the runs that a take() reads, by track
   std::int64_t begun_wall_ns_ = 0;         // distinguishes the recording from others of the node; 0: of a simulation
   std::uint64_t part_ = 0;
   std::int64_t latest_ns_ = 0;

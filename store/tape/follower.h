@@ -53,11 +53,14 @@ class Follower {
   [[nodiscard]] std::optional<Version> version(std::uint32_t number) const;
 
   // Reads the next run of a track; `run` is reused. Returns false if there is none yet.
-  bool next(std::size_t track, Run& run) {
-    const std::uint64_t end = tracks_[track].written();
+  bool next(std::size_t track, Run& run) { return next(track, run, end_of(track)); }
+  // The same of the runs that had ended when end_of() returned `end`.
+  bool next(std::size_t track, Run& run, std::uint64_t end) {
     take_later_variables();  // those of all runs before `end`
     return tracks_[track].next(run, end);
   }
+  // Position behind the last run of the track that has ended.
+  [[nodiscard]] std::uint64_t end_of(std::size_t track) const noexcept { return tracks_[track].written(); }
   // Runs that were written on the track so far.
   [[nodiscard]] std::uint64_t runs(std::size_t track) const noexcept { return tracks_[track].runs(); }
   // Runs of the track that were overwritten before they were read.
