@@ -61,6 +61,7 @@ class TwoArchitectures(unittest.TestCase):
         cls.wire = cable()
         cls.machine = cls.power_on()
         cls.addClassCleanup(lambda: cls.power_off())
+        cls.addClassCleanup(lambda: subprocess.run([build / "bin/indurop", "clean", "--node", "x86"], check=False))
         with open(cls.folder / "agent.log", "wb") as log:
             agent = subprocess.Popen([build / "bin/indurop-agent", "--board", "x86", "--interface", "wire"],
                                      stdout=subprocess.DEVNULL, stderr=log)
