@@ -41,7 +41,7 @@ Result<std::uint16_t, Problem> Recorder::keyframe_channel_of(std::uint32_t modul
 }
 
 // Writes the keyframe that the run begins with, if there is one and no part of the run was written.
-Result<void, Problem> Recorder::write_keyframe(const Held& held) {
+Result<void, Problem> Recorder::write_keyframe(const RunQueue::Held& held) {
   const tape::Run& run = held.run;
   const tape::Keyframe* const keyframe = held.written == 0 ? keyframes_.of(run.module, run.tail.number) : nullptr;
   if (keyframe == nullptr) {

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
-#include <queue>
 #include <span>
 #include <utility>
 
@@ -111,8 +109,7 @@ void Recorder::choose(const std::vector<std::string>& globs, std::vector<bool>& 
       missing_.appeared.push_back(variable(i).name);
     }
   }
-  held_.resize(follower_.tracks());
-  ends_.resize(follower_.tracks());
+  runs_.set_tracks(follower_.tracks());
   known_.resize(follower_.tracks());
   add_places();
 }
@@ -263,7 +260,7 @@ Result<void, Problem> Recorder::write_part(const tape::Run& run, std::size_t par
   return written;
 }
 
-Result<void, Problem> Recorder::write_run(Held& held) {
+Result<void, Problem> Recorder::write_run(RunQueue::Held& held) {
   const std::size_t parts = held.run.values.size() + held.run.clock.size() + held.run.answers.size() + 1;
   for (; held.written < parts; ++held.written) {
     if (auto written = write_part(held.run, held.written); !written) {
@@ -273,63 +270,33 @@ Result<void, Problem> Recorder::write_run(Held& held) {
   return {};
 }
 
-// Finds the ends of all tracks at one moment: a run that ends while they are read must not be written before an earlier
-// one of a track that was read already. If runs end all the time, there is no such moment.
-void Recorder::find_ends() {
-  constexpr int kTries = 16;
-  bool same = false;
-  for (int i = 0; i < kTries && !same; ++i) {
-    same = true;
-    for (std::size_t track = 0; track < ends_.size(); ++track) {
-      const std::uint64_t end = follower_.end_of(track);
-      same = same && end == ends_[track];
-      ends_[track] = end;
-    }
-  }
-}
-
-// Returns false if the track has no run that is not written yet.
-bool Recorder::read_run(std::size_t track) {
-  std::optional<Held>& held = held_[track];
-  if (held) {
-    return true;
-  }
-  held.emplace();
-  if (!follower_.next(track, held->run, ends_[track])) {
-    held.reset();
+// Writes the run that was read of the track. Returns false if it did not end before `until_ns`.
+Result<bool, Problem> Recorder::take_run(std::size_t track, std::int64_t until_ns) {
+  RunQueue::Held& held = runs_.held(track);
+  if (held.run.tail.end_ns >= until_ns) {
     return false;
   }
   add_places();
-  return true;
-}
-
-// Writes the run that was read of the track. Returns false if it did not end before `until_ns`.
-Result<bool, Problem> Recorder::take_run(std::size_t track, std::int64_t until_ns) {
-  std::optional<Held>& held = held_[track];
-  if (held->run.tail.end_ns >= until_ns) {
-    return false;
-  }
   if (!first_values_written_) {
-    if (auto first_values = write_first_values(held->run); !first_values) {
+    if (auto first_values = write_first_values(held.run); !first_values) {
       return std::move(first_values).error();
     }
     first_values_written_ = true;
   }
-  auto written = write_version(track, held->run);
+  auto written = write_version(track, held.run);
   if (written) {
-    written = write_keyframe(*held);
+    written = write_keyframe(held);
   }
   if (written) {
-    written = write_run(*held);
+    written = write_run(held);
   }
   if (!written) {
     return std::move(written).error();
   }
-  latest_ns_ = std::max(latest_ns_, held->run.tail.end_ns);
+  latest_ns_ = std::max(latest_ns_, held.run.tail.end_ns);
   if (remembers_) {
-    note(track, held->run);
+    note(track, held.run);
   }
-  held.reset();
   return true;
 }
 
@@ -340,26 +307,14 @@ Result<void, Problem> Recorder::take(std::int64_t until_ns) {
   }
   keyframes_.read(about_.node, follower_.header(), modules,
                   [this](std::uint32_t module) { return records_inputs(module); });
-  find_ends();
-  using Next = std::pair<std::uint64_t, std::size_t>;  // when it began, among all runs; its track
-  std::priority_queue<Next, std::vector<Next>, std::greater<>> next;
-  const auto read = [&](std::size_t track) {
-    if (read_run(track)) {
-      next.emplace(held_[track]->run.tail.order, track);
-    }
-  };
-  for (std::size_t track = 0; track < follower_.tracks(); ++track) {
-    read(track);
-  }
-  while (!next.empty()) {
-    const std::size_t track = next.top().second;
-    next.pop();
-    auto taken = take_run(track, until_ns);
+  runs_.begin(follower_);
+  while (const auto track = runs_.next()) {
+    auto taken = take_run(*track, until_ns);
     if (!taken) {
       return std::move(taken).error();
     }
     if (*taken) {
-      read(track);
+      runs_.finish(*track, follower_);
     }
   }
   for (std::size_t track = 0; track < follower_.tracks(); ++track) {
@@ -373,16 +328,6 @@ Result<void, Problem> Recorder::take(std::int64_t until_ns) {
 std::size_t Recorder::variables() const noexcept {
   return static_cast<std::size_t>(
       std::count_if(places_.begin(), places_.end(), [](const Place& place) { return place.wanted; }));
-}
-
-std::optional<std::int64_t> Recorder::waiting_ns() const noexcept {
-  std::optional<std::int64_t> first;
-  for (const std::optional<Held>& held : held_) {
-    if (held) {
-      first = std::min(first.value_or(held->run.tail.end_ns), held->run.tail.end_ns);
-    }
-  }
-  return first;
 }
 
 Result<void, Problem> Recorder::attach(std::string_view name, std::string_view text) {

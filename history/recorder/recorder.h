@@ -19,6 +19,7 @@
 
 #include "core/base/problem.h"
 #include "history/recorder/keyframe_queue.h"
+#include "history/recorder/run_queue.h"
 #include "history/recording/mcap_writer.h"
 #include "store/tape/follower.h"
 #include "store/vars/store.h"
@@ -62,12 +63,11 @@ class Recorder {
   void learn();
   // Keeps the last known values of every module, for go_on_in(). To be called before the first take().
   void remember() { remembers_ = true; }
-  // Takes the runs that ended before `until_ns` (the node's time), in the order in which they began: in virtual time,
-  // messages of many runs have the same time, and only their order in the file says which came first. Errors: those of
+  // Takes the runs that ended before `until_ns` (the node's time), in the order in which they began. Errors: those of
   // the disk; what was not taken can be taken later, and nothing is written twice.
   Result<void, base::Problem> take(std::int64_t until_ns = std::numeric_limits<std::int64_t>::max());
   // The end of the earliest run that take() left for later.
-  [[nodiscard]] std::optional<std::int64_t> waiting_ns() const noexcept;
+  [[nodiscard]] std::optional<std::int64_t> waiting_ns() const noexcept { return runs_.earliest_ns(); }
   // Writes what is in memory to the file.
   Result<void, base::Problem> flush() { return writer_->flush(); }
   // Begins to bring to the disk what is in the file, where it survives a loss of power.
@@ -105,12 +105,6 @@ class Recorder {
     std::uint32_t version = 0;                      // of its module, as this file says; 0: it says nothing
   };
 
-  // A run that was read from the tape, but is not or only partly written.
-  struct Held {
-    tape::Run run;
-    std::size_t written = 0;  // number of its parts written
-  };
-
   void choose(const std::vector<std::string>& globs, std::vector<bool>& matched);
   void add_places();
   Result<void, base::Problem> begin_file();
@@ -119,10 +113,8 @@ class Recorder {
   Result<void, base::Problem> write_known_values();
   void note(std::size_t track, const tape::Run& run);
   Result<void, base::Problem> write_version(std::size_t track, const tape::Run& run);
-  void find_ends();
-  bool read_run(std::size_t track);
   Result<bool, base::Problem> take_run(std::size_t track, std::int64_t until_ns);
-  Result<void, base::Problem> write_run(Held& held);
+  Result<void, base::Problem> write_run(RunQueue::Held& held);
   Result<void, base::Problem> write_part(const tape::Run& run, std::size_t part);
   Result<void, base::Problem> write_value(const tape::Value& value, std::uint32_t module, std::int64_t time_ns,
                                           std::int64_t release_ns);
@@ -130,7 +122,7 @@ class Recorder {
   Result<std::uint16_t, base::Problem> channel_of(std::uint32_t index);
   [[nodiscard]] bool records_inputs(std::uint32_t module) const;
   Result<std::uint16_t, base::Problem> keyframe_channel_of(std::uint32_t module);
-  Result<void, base::Problem> write_keyframe(const Held& held);
+  Result<void, base::Problem> write_keyframe(const RunQueue::Held& held);
   [[nodiscard]] const schema::Variable& variable(std::uint32_t index) const;
   [[nodiscard]] std::uint64_t real_time(std::int64_t node_ns) const noexcept;
   [[nodiscard]] std::uint64_t log_time(std::int64_t node_ns) const noexcept;
@@ -160,10 +152,9 @@ class Recorder {
   KeyframeQueue keyframes_;
   bool remembers_ = false;
   bool first_values_written_ = false;
-  std::vector<Known> known_;               // by track
-  std::vector<std::optional<Held>> held_;  // by track
-  std::vector<std::uint64_t> ends_;        // of the runs that a take() reads, by track
-  std::int64_t begun_wall_ns_ = 0;         // distinguishes the recording from others of the node; 0: of a simulation
+  std::vector<Known> known_;  // by track
+  RunQueue runs_;
+  std::int64_t begun_wall_ns_ = 0;  // distinguishes the recording from others of the node; 0: of a simulation
   std::uint64_t part_ = 0;
   std::int64_t latest_ns_ = 0;
   std::int64_t begin_ns_ = 0;  // no message of this file is earlier; 0: as early as the first run
