@@ -39,9 +39,11 @@ bool ModuleFacts::uses(std::uint64_t name_hash) const noexcept {
   return found != file.access.end() && (found->second.reads || found->second.writes);
 }
 
+// Not where it is mapped: the segments of a file may lie apart (ARM64 aligns them to 64 KiB), and each has its own
+// start.
 const void* image_of(const void* address) noexcept {
   const auto found = find_object(address);
-  return found ? found->dlfo_map_start : nullptr;
+  return found ? found->dlfo_link_map : nullptr;
 }
 
 std::string path_of(const void* address) {
