@@ -139,7 +139,7 @@ struct ProcessSlot {
   rt::SignalWord turn;                     // wakes the process that follows
   rt::SignalWord recall;                   // wakes the one that was followed
   std::atomic<std::int32_t> runner;        // began the run `taken`; written by it
-  std::atomic<std::int32_t> successor;     // launched next to the one that runs; written by the node
+  std::atomic<std::int32_t> successor;     // launched next to the one that runs, or kBeingLaunched; written by the node
   std::atomic<std::int32_t> ready;         // waits for its turn; written by it
   std::atomic<std::int32_t> may_follow;    // may take the place of `pid`; written by the node
   std::atomic<std::uint64_t> follow_from;  // tick of its first release; written by the node before `may_follow`
@@ -148,6 +148,8 @@ struct ProcessSlot {
   std::atomic<std::uint64_t> follow_tick;  // tick of the newest release then; written by the same before `followed`
   std::atomic<std::int32_t> previous;      // stays ready when it was followed; written by the node
 };
+// In place of the successor's process id: the process may run already, but its id is not known to the node yet.
+inline constexpr std::int32_t kBeingLaunched = -1;
 
 // One entry of the slot log: which module ran when. Ring, newest overwrites oldest.
 struct SlotEntry {

@@ -78,14 +78,16 @@ void ProcessExchange::launch() {
   running_ = processes_.program(module_);
   other_.program = checked_;
   tape::ProcessKeyframes::remove(context_.parts.node, module_, tape::ProcessKeyframes::Of::Next);
+  slot().ready.store(0);
+  slot().successor.store(scheduler::kBeingLaunched, std::memory_order_release);
   const auto launched = processes_.launch_next_to(module_, other_.program.file);
   if (!launched) {
+    slot().successor.store(0);
     answer(CommandResult::Failed, fmt::format("cannot be started: {}", std::strerror(launched.error().sys_errno)));
     step_ = Step::Over;
     return;
   }
   other_.pid = launched.value();
-  slot().ready.store(0);
   slot().successor.store(other_.pid, std::memory_order_release);
   deadline_ = rt::MonoClock::now() + kStartLimit;
   step_ = Step::Starting;

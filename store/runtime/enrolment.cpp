@@ -45,6 +45,17 @@ bool process_exists(std::int32_t pid) noexcept {
   return pid > 0 && (::kill(pid, 0) == 0 || errno == EPERM);
 }
 
+// A process may run before the node that launches it knows its id.
+std::int32_t successor_of(const RunMapping& mapping, const scheduler::ProcessSlot& slot) {
+  constexpr std::int64_t kPollNs = 1'000'000;
+  std::int32_t successor = slot.successor.load(std::memory_order_acquire);
+  while (successor == scheduler::kBeingLaunched && mapping.node_alive()) {
+    rt::sleep_until(rt::now_ns() + kPollNs);
+    successor = slot.successor.load(std::memory_order_acquire);
+  }
+  return successor;
+}
+
 std::string_view text_of(const char* text, std::size_t size) {
   return {text, strnlen(text, size)};
 }
@@ -146,7 +157,7 @@ Enrolment::Outcome Enrolment::take_slot(RunMapping& mapping, Again again) {
   ModuleRecord& record = run.modules()[index];
   auto& slot = run.process_slots()[index];
   const std::int32_t launched = record.pid.load(std::memory_order_acquire);
-  const std::int32_t successor = slot.successor.load(std::memory_order_acquire);
+  const std::int32_t successor = successor_of(mapping, slot);
   const auto is_this = [this](std::int32_t pid) { return pid > 0 && (pid == pid_ || pid == ::getppid()); };
   const bool follows = is_this(successor);
   const bool is_launched = follows || is_this(launched);

@@ -108,6 +108,21 @@ TEST(PeriodicProcess, Of_a_module_that_runs_already_is_refused) {
   EXPECT_TRUE(first.running());
 }
 
+// A node that is delayed after it has launched a process does not know its id when the process asks.
+TEST(PeriodicProcess, That_is_to_follow_another_one_waits_until_the_node_knows_it) {
+  TestNode node(one_process());
+  Program first = hosted_program(PERIODIC_PROGRAM, node.name(), "1");
+  ASSERT_TRUE(enrolled(node, first));
+  node.slot(1).successor = indurop::scheduler::kBeingLaunched;
+  Program second = hosted_program(PERIODIC_PROGRAM, node.name(), "1");
+  EXPECT_FALSE(wait_until([&] { return !second.running() || !second.out().empty(); }, std::chrono::milliseconds(300)))
+      << second.out();
+  node.slot(1).successor = second.pid();
+  EXPECT_TRUE(second.prints("initPeriodExe 0"));
+  EXPECT_TRUE(wait_until([&] { return node.slot(1).ready == second.pid(); }));
+  EXPECT_TRUE(first.running());
+}
+
 TEST(PeriodicProcess, Whose_variables_do_not_fit_refuses_to_run) {
   auto schema = sample_schema();
   auto& tick = schema.variables[0];
