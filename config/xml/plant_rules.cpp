@@ -225,7 +225,7 @@ void put_architectures(Plant& plant, base::Diagnostics& report) {
         module.file = module_file(folder, module.file_as_written);
       }
     }
-    board.types = plant;
+    board.types = static_cast<const TypeFiles&>(plant);
     for (std::size_t i = 0; i < board.types.types.size(); ++i) {
       std::string& written = board.types.types_as_written[i];
       if (put_architecture(written, board.types.type_places[i], board, report)) {

@@ -215,7 +215,7 @@ std::string BoardUsers::id(const std::string& plant) const {
 std::string BoardUsers::newer_than(const std::string& plant, const std::string& id) const {
   const auto own = stored(plant);
   const auto other = read_user_list_id(id);
-  return own && (!other || id_of(*own) > *other) ? text_of(*own) : std::string();
+  return own && (!other || *other < id_of(*own)) ? text_of(*own) : std::string();
 }
 
 Result<std::string, Problem> BoardUsers::author_of(const UserList& list) const {

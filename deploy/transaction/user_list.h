@@ -29,7 +29,7 @@ std::string signed_text(const UserList& list);
 struct UserListId {
   std::uint64_t serial = 0;
   std::string digest;
-  auto operator<=>(const UserListId&) const = default;
+  auto operator<=>(const UserListId&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 UserListId id_of(const UserList& list);
 std::string text_of(const UserListId& id);

@@ -23,7 +23,7 @@ Flow read_board(Configuration& to, const std::filesystem::path& file) {
   to.plant.file = file;
   config::Board& board = to.plant.boards.emplace_back();
   board.name = "board";
-  board.types = checked.config.external;
+  board.types = static_cast<const config::TypeFiles&>(checked.config.external);
   board.config = std::move(checked.config);
   Flow flow;
   for (const schema::Variable& variable : checked.check.schema.variables) {
