@@ -37,6 +37,10 @@ TEST(UserList, Text_and_back) {
   }
 }
 
+void flip(char& one, unsigned bit) {
+  one = static_cast<char>(static_cast<unsigned char>(one) ^ (1U << bit));
+}
+
 // Whatever is read from a damaged text is either nothing, or its signed text is another one, or it is undamaged but for
 // the signature.
 TEST(UserList, Damage_is_no_list_or_another_signed_text_or_signature) {
@@ -49,7 +53,7 @@ TEST(UserList, Damage_is_no_list_or_another_signed_text_or_signature) {
         damaged.resize(random() % whole.size());
         break;
       case 1:
-        damaged[random() % whole.size()] ^= static_cast<char>(1U << (random() % 8));
+        flip(damaged[random() % whole.size()], random() % 8);
         break;
       default:
         damaged.insert(random() % whole.size(), 1, static_cast<char>(random() % 256));
