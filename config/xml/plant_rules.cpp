@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "config/xml/config_reader.h"
 #include "config/xml/module_file.h"
 #include "config/xml/pool_reader.h"
 #include "core/base/text.h"
@@ -218,7 +219,7 @@ void add_standbys(Plant& plant, base::Diagnostics& report) {
 }
 
 void put_architectures(Plant& plant, base::Diagnostics& report) {
-  const std::filesystem::path folder = plant.file.parent_path();
+  const std::filesystem::path folder = folder_of(plant.file);
   for (Board& board : plant.boards) {
     for (Module& module : board.config.modules) {
       if (put_architecture(module.file_as_written, module.places.file, board, report)) {

@@ -224,6 +224,11 @@ TEST(PlantReader, Arch_stands_for_the_architecture_of_the_board_that_runs_the_mo
   ASSERT_TRUE(typed.ok());
   EXPECT_THAT(typed.plant.boards[0].types.types, ElementsAre("/cell/lib-amd64/t.so"));
   EXPECT_THAT(typed.plant.boards[1].types.types_as_written, ElementsAre("lib-arm64/t.so"));
+  const ReadPlant here =
+      read_plant_text(plant(types + board(R"(name="a" arch="amd64")", periodic("m-${arch}/a.so", "1ms", 1))), "p.xml");
+  ASSERT_TRUE(here.ok());
+  EXPECT_EQ(here.plant.boards[0].types.types.front(), std::filesystem::current_path() / "lib-amd64/t.so");
+  EXPECT_EQ(here.plant.boards[0].config.modules[0].file, std::filesystem::current_path() / "m-amd64/a.so");
   EXPECT_THAT(lines_of(plant(types + board("name=\"b\"", periodic("a.so", "1ms", 1)))),
               ElementsAre(HasSubstr("the board 'b' does not say it")));
   EXPECT_THAT(with_board(board("name=\"b\" arch=\"x86\"")),
