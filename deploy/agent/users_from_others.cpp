@@ -10,9 +10,8 @@
 namespace indurop::deploy {
 namespace {
 
-constexpr std::chrono::seconds kPatience{2};
+constexpr std::chrono::seconds kPatience{5};  // with one agent, however often it begins again
 constexpr std::chrono::seconds kRound{60};
-constexpr std::size_t kLargest = 4U << 20U;
 
 }  // namespace
 
@@ -20,7 +19,7 @@ void UsersFromOthers::step(DeployLink& link, const std::vector<std::uint64_t>& a
                            rt::MonoTime now) {
   for (const BlobChunk& chunk : link.take_chunks()) {
     if (chunk.source == source_ && chunk.blob == blob_) {
-      take(chunk, plant, now);
+      take(chunk, plant);
     }
   }
   if (source_ == 0 || now > until_) {
@@ -44,23 +43,19 @@ void UsersFromOthers::ask_next(DeployLink& link, const std::vector<std::uint64_t
   asked_.insert(source_);
   until_ = now + kPatience;
   blob_ = std::string(kUsersBlob) + users_.id(plant);
-  text_.clear();
+  text_ = TextPieces(kLargest);
   link.request({self_, source_, blob_, 0, kLargest, true});
 }
 
-// The pieces come in order; the last one is not full.
-void UsersFromOthers::take(const BlobChunk& chunk, const std::string& plant, rt::MonoTime now) {
-  if (chunk.missing || chunk.offset != text_.size() || text_.size() + chunk.data.size() > kLargest) {
-    source_ = 0;  // it has no newer one
-    return;
-  }
-  until_ = now + kPatience;
-  text_.append(chunk.data.begin(), chunk.data.end());
-  if (chunk.data.size() == DeployLink::kChunk) {
+void UsersFromOthers::take(const BlobChunk& chunk, const std::string& plant) {
+  if (!text_.take(chunk) || !text_.done()) {
     return;
   }
   source_ = 0;
-  const auto taken = users_.take(plant, text_);
+  if (!text_.whole()) {
+    return;  // it has no newer one
+  }
+  const auto taken = users_.take(plant, text_.text());
   const std::string problem = taken ? std::string() : taken.error().text;
   if (taken) {
     log_.info("{}", *taken);

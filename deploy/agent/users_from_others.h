@@ -13,6 +13,7 @@
 #include "core/rt/clock.h"
 #include "deploy/agent/board_users.h"
 #include "deploy/link/deploy_link.h"
+#include "deploy/link/text_pieces.h"
 
 namespace indurop::deploy {
 
@@ -25,8 +26,10 @@ class UsersFromOthers {
   void step(DeployLink& link, const std::vector<std::uint64_t>& agents, const std::string& plant, rt::MonoTime now);
 
  private:
+  static constexpr std::size_t kLargest = 4U << 20U;  // bytes of a list
+
   void ask_next(DeployLink& link, const std::vector<std::uint64_t>& agents, const std::string& plant, rt::MonoTime now);
-  void take(const BlobChunk& chunk, const std::string& plant, rt::MonoTime now);
+  void take(const BlobChunk& chunk, const std::string& plant);
 
   std::uint64_t self_;
   const BoardUsers& users_;
@@ -36,8 +39,8 @@ class UsersFromOthers {
   std::uint64_t source_ = 0;       // the agent that is asked; 0: none
   rt::MonoTime until_;             // until then its answer is waited for
   std::string blob_;
-  std::string text_;          // of its answer
-  std::string last_problem_;  // logged once
+  TextPieces text_{kLargest};  // of its answer
+  std::string last_problem_;   // logged once
 };
 
 }  // namespace indurop::deploy

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/rt/clock.h"
+#include "deploy/link/text_pieces.h"
 #include "tools/client/process/interrupt.h"
 
 namespace indurop::tools {
@@ -15,27 +16,9 @@ constexpr std::int64_t kTextPollNs = 20'000'000;
 constexpr std::uint64_t kLargest = 64U << 20U;
 
 struct Text {
-  std::string text;
+  deploy::TextPieces pieces{kLargest};
   std::int64_t ask_ns = 0;  // time of the next request, if nothing was received by then
-  bool whole = false;
-  bool missing = false;
-  [[nodiscard]] bool done() const noexcept { return whole || missing; }
 };
-
-// A text may have changed since the previous request: only the pieces of one answer belong together, and they come in
-// order. The last piece is the one that is not full.
-void take(Text& text, const deploy::BlobChunk& chunk, std::int64_t now) {
-  if (chunk.offset == 0) {
-    text.text.clear();
-  }
-  if (text.done() || chunk.offset != text.text.size()) {
-    return;
-  }
-  text.missing = chunk.missing;
-  text.text.append(chunk.data.begin(), chunk.data.end());
-  text.whole = !chunk.missing && chunk.data.size() < deploy::DeployLink::kChunk;
-  text.ask_ns = now + kAskAgainNs;
-}
 
 }  // namespace
 
@@ -46,14 +29,14 @@ std::map<std::uint64_t, std::string> fetch_texts(deploy::DeployLink& link, std::
     texts[agent] = {};
   }
   const auto all_done = [&] {
-    return std::all_of(texts.begin(), texts.end(), [](const auto& entry) { return entry.second.done(); });
+    return std::all_of(texts.begin(), texts.end(), [](const auto& entry) { return entry.second.pieces.done(); });
   };
   // A late answer to an earlier request would have an old text.
   (void)link.take_chunks();
   const std::int64_t end = rt::now_ns() + kTextPatienceNs;
   while (!all_done() && !interrupted() && rt::now_ns() < end) {
     for (auto& [agent, text] : texts) {
-      if (!text.done() && rt::now_ns() >= text.ask_ns) {
+      if (!text.pieces.done() && rt::now_ns() >= text.ask_ns) {
         link.request({self, agent, name, 0, kLargest, true});
         text.ask_ns = rt::now_ns() + kAskAgainNs;
       }
@@ -61,15 +44,15 @@ std::map<std::uint64_t, std::string> fetch_texts(deploy::DeployLink& link, std::
     link.wait(rt::mono_time(rt::now_ns() + kTextPollNs));
     for (const deploy::BlobChunk& chunk : link.take_chunks()) {
       const auto asked = texts.find(chunk.source);
-      if (asked != texts.end() && chunk.blob == name) {
-        take(asked->second, chunk, rt::now_ns());
+      if (asked != texts.end() && chunk.blob == name && asked->second.pieces.take(chunk)) {
+        asked->second.ask_ns = rt::now_ns() + kAskAgainNs;
       }
     }
   }
   std::map<std::uint64_t, std::string> answers;
-  for (auto& [agent, text] : texts) {
-    if (text.whole) {
-      answers.emplace(agent, std::move(text.text));
+  for (const auto& [agent, text] : texts) {
+    if (text.pieces.whole()) {
+      answers.emplace(agent, text.pieces.text());
     }
   }
   return answers;
