@@ -165,17 +165,20 @@ std::string BoardUsers::beyond_limits(const config::PlantUser& user, const Comma
   return {};
 }
 
-Result<std::string, Problem> BoardUsers::signer(const std::string& plant, const std::string& text,
-                                                const std::string& signature) const {
+BoardUsers::Verdict BoardUsers::signer(const std::string& plant, const std::string& text,
+                                       const std::string& signature) const {
   const auto of_user = read_user_signature(signature);
   const OwnKeys own = keys_.own(plant);
   if (!of_user || own.folder.empty()) {
-    std::string refusal = keys_.refusal(plant, text, signature);
-    return refusal.empty() ? Result<std::string, Problem>(std::string()) : Problem{std::move(refusal)};
+    return {{}, keys_.refusal(plant, text, signature)};
   }
   const keys::ParticipantKeys files(own.folder);
-  return signer_of(text, *of_user, {own.plant, text_of_file(files.authority), text_of_file(files.revoked)},
-                   keys::instant_now());
+  const auto name = signer_of(text, *of_user, {own.plant, text_of_file(files.authority), text_of_file(files.revoked)},
+                              keys::instant_now());
+  if (!name) {
+    return {{}, name.error().text};
+  }
+  return {*name, own.plant == plant ? "" : fmt::format("this board has keys, but none of plant {}", plant)};
 }
 
 std::optional<UserList> BoardUsers::stored(const std::string& plant) const {
@@ -189,22 +192,15 @@ config::PlantUsers BoardUsers::users_of(const std::string& plant) const {
 }
 
 BoardUsers::Verdict BoardUsers::judge(const Command& command, const std::string& plant) const {
-  const auto name = signer(plant, command_text(command), command.signature);
-  if (!name) {
-    return {{}, name.error().text};
+  Verdict verdict = signer(plant, command_text(command), command.signature);
+  if (verdict.refusal.empty() && !verdict.user.empty()) {
+    const config::PlantUsers users = users_of(plant);
+    verdict.refusal = beyond_role(users, verdict.user, command.action, board_);
+    if (verdict.refusal.empty()) {
+      verdict.refusal = beyond_limits(*users.find(verdict.user), command);
+    }
   }
-  if (name->empty()) {
-    return {};
-  }
-  if (keys_.own(plant).plant != plant) {
-    return {*name, fmt::format("this board has keys, but none of plant {}", plant)};
-  }
-  const config::PlantUsers users = users_of(plant);
-  std::string refusal = beyond_role(users, *name, command.action, board_);
-  if (refusal.empty()) {
-    refusal = beyond_limits(*users.find(*name), command);
-  }
-  return {*name, std::move(refusal)};
+  return verdict;
 }
 
 std::string BoardUsers::id(const std::string& plant) const {
@@ -218,17 +214,16 @@ std::string BoardUsers::newer_than(const std::string& plant, const std::string& 
   return own && (!other || *other < id_of(*own)) ? text_of(*own) : std::string();
 }
 
-Result<std::string, Problem> BoardUsers::author_of(const UserList& list) const {
-  auto name = signer(list.plant, signed_text(list), list.signature);
-  if (!name || name->empty()) {
-    return name;
+BoardUsers::Verdict BoardUsers::author_of(const UserList& list) const {
+  Verdict verdict = signer(list.plant, signed_text(list), list.signature);
+  if (verdict.refusal.empty() && !verdict.user.empty()) {
+    const config::PlantUsers users = users_of(list.plant);
+    verdict.refusal = beyond_role(users, verdict.user, Action::SetUsers, board_);
+    if (verdict.refusal.empty() && !users.find(verdict.user)->variables.empty()) {
+      verdict.refusal = fmt::format("{} may change some variables only", verdict.user);
+    }
   }
-  const config::PlantUsers users = users_of(list.plant);
-  std::string refusal = beyond_role(users, *name, Action::SetUsers, board_);
-  if (refusal.empty() && !users.find(*name)->variables.empty()) {
-    refusal = fmt::format("{} may change some variables only", *name);
-  }
-  return refusal.empty() ? name : Problem{std::move(refusal)};
+  return verdict;
 }
 
 Result<BoardUsers::Accepted, Problem> BoardUsers::accept(const std::string& plant, const std::string& text) const {
@@ -237,16 +232,16 @@ Result<BoardUsers::Accepted, Problem> BoardUsers::accept(const std::string& plan
       !config::read_users_text(list->users, "users.xml").ok()) {
     return Problem{"it is not a list of users of this plant, or one of another release"};
   }
-  auto author = author_of(*list);
-  if (!author) {
-    return author.error();
+  Verdict author = author_of(*list);
+  if (!author.refusal.empty()) {
+    return Problem{std::move(author.refusal)};
   }
   const UserListId own = id_of(stored(plant).value_or(UserList{}));
   if (id_of(*list) < own || list->serial > own.serial + kMostSteps) {
     return Problem{fmt::format("this board has list {} of the users, and this one is {}; send the list again",
                                own.serial, list->serial)};
   }
-  return Accepted{*std::move(list), *std::move(author)};
+  return Accepted{*std::move(list), std::move(author.user)};
 }
 
 Result<void, Problem> BoardUsers::store(const UserList& list) const {

@@ -66,11 +66,10 @@ class BoardUsers {
   [[nodiscard]] std::filesystem::path file_of(const std::string& plant) const;
   [[nodiscard]] std::optional<UserList> stored(const std::string& plant) const;
   [[nodiscard]] config::PlantUsers users_of(const std::string& plant) const;
-  // Returns who signed: an empty name is that of a deployer, or of anyone if the board has no keys.
-  [[nodiscard]] Result<std::string, base::Problem> signer(const std::string& plant, const std::string& text,
-                                                          const std::string& signature) const;
-  // Returns who has signed a list, if that suffices to replace the board's own.
-  [[nodiscard]] Result<std::string, base::Problem> author_of(const UserList& list) const;
+  // Judges a signature alone: whose it is, and whether it counts for the plant.
+  [[nodiscard]] Verdict signer(const std::string& plant, const std::string& text, const std::string& signature) const;
+  // Judges whether the signature of a list suffices to replace the board's own.
+  [[nodiscard]] Verdict author_of(const UserList& list) const;
   struct Accepted {
     UserList list;
     std::string author;
