@@ -27,7 +27,7 @@ Result<ClientCertificates, base::Problem> ClientCertificates::open(const std::fi
     return base::Problem{fmt::format("{} is not a certificate", authority.string())};
   }
   made.revoked_ = revoked.empty() ? authority.parent_path() / "revoked.pem" : revoked;
-  *made.needs_list_ = !revoked.empty() || keys::is_plant_authority(*facts);
+  made.needs_list_ = !revoked.empty() || keys::is_plant_authority(*facts);
   if (const auto list = made.read_list(); !list) {
     return base::Problem{list.error().text + "; copy the revoked.pem of the plant's keys into the folder of " +
                          authority.string() + ", or name it with --revoked"};
@@ -37,10 +37,10 @@ Result<ClientCertificates, base::Problem> ClientCertificates::open(const std::fi
 
 Result<std::string, base::Problem> ClientCertificates::read_list() const {
   auto text = base::read_file(revoked_);
-  if (!text && text.error().sys_errno == ENOENT && !*needs_list_) {
+  if (!text && text.error().sys_errno == ENOENT && !needs_list_) {
     return std::string();
   }
-  *needs_list_ = true;
+  needs_list_ = true;
   if (!text) {
     return base::Problem{base::cannot_read(revoked_.string(), text.error())};
   }
@@ -50,16 +50,14 @@ Result<std::string, base::Problem> ClientCertificates::read_list() const {
   return std::move(*text);
 }
 
-bool ClientCertificates::is_person(const std::string& certificate) {
+ClientCertificates::Holder ClientCertificates::holder_of(const std::string& certificate) {
   const auto facts = keys::read_certificate(certificate);
+  if (facts && !keys::is_plant_certificate(*facts)) {
+    return Holder::Stranger;
+  }
   const auto role = facts ? keys::plant_role(*facts) : std::nullopt;
-  return facts && (!keys::is_plant_certificate(*facts) || role == keys::Role::Deployer || role == keys::Role::Viewer ||
-                   role == keys::Role::User);
-}
-
-bool ClientCertificates::is_of_plant(const std::string& certificate) {
-  const auto facts = keys::read_certificate(certificate);
-  return facts && keys::is_plant_certificate(*facts);
+  const bool person = role == keys::Role::Deployer || role == keys::Role::Viewer || role == keys::Role::User;
+  return person ? Holder::Person : Holder::Participant;
 }
 
 Client ClientCertificates::identify(const std::string& certificate) const {

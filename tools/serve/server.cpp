@@ -80,12 +80,13 @@ std::string Server::choose_subprotocol(const Request& request) {
 
 Client Server::identify(const std::string& certificate) {
   Client client = authority_.identify(certificate);
-  if (!client.refusal.empty() || !ClientCertificates::is_person(certificate)) {
+  const ClientCertificates::Holder holder = ClientCertificates::holder_of(certificate);
+  if (!client.refusal.empty() || holder == ClientCertificates::Holder::Participant) {
     return client;
   }
   // Who is removed from the list must not get more rights by that: the list says what clients of an authority may that
   // knows nothing of the plant.
-  const Role unlisted = ClientCertificates::is_of_plant(certificate) ? client.role : Role::Look;
+  const Role unlisted = holder == ClientCertificates::Holder::Stranger ? Role::Look : client.role;
   return users_.client_certified(std::move(client), unlisted);
 }
 

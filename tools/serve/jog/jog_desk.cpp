@@ -84,13 +84,6 @@ Result<JogDesk::Switch, Problem> JogDesk::switch_of(const vars::Store& store, co
   return Switch{entry, name, variable->type, beat->offset, enable->offset, enable->type.size(), speed->type.dims[0]};
 }
 
-template <class Change>
-bool JogDesk::Hand::press(Change change) {
-  std::vector<std::uint8_t> bytes(place.type.size());
-  return store.read(*place.entry, 0, bytes).ok() && change(std::span<std::uint8_t>(bytes)) &&
-         store.write(*place.entry, 0, bytes).ok();
-}
-
 void JogDesk::Hand::count_beat() {
   beat = std::max(beat + 1, 1U);  // 0 has another meaning
 }
@@ -211,12 +204,13 @@ Result<std::string, Problem> JogDesk::begin(const std::string& board, const std:
                              {reinterpret_cast<std::uint8_t*>(&pressed.beat), sizeof pressed.beat});
     pressed.count_beat();
     const schema::Type& type = pressed.place.type;
-    const bool written = pressed.press([&](std::span<std::uint8_t> bytes) {
-      return schema::write_field(type, "bEnable", 1.0, bytes) && schema::write_field(type, "eFrame", *frame, bytes) &&
-             schema::write_field(type, "dSpeed", speed, bytes) &&
-             schema::write_field(type, "nBeat", pressed.beat, bytes) &&
-             (*frame != kWorkFrame || schema::write_field(type, "frame", std::string_view(request.frame), bytes));
-    });
+    std::vector<std::uint8_t> bytes(type.size());
+    const bool written =
+        pressed.store.read(*pressed.place.entry, 0, bytes).ok() && schema::write_field(type, "bEnable", 1.0, bytes) &&
+        schema::write_field(type, "eFrame", *frame, bytes) && schema::write_field(type, "dSpeed", speed, bytes) &&
+        schema::write_field(type, "nBeat", pressed.beat, bytes) &&
+        (*frame != kWorkFrame || schema::write_field(type, "frame", std::string_view(request.frame), bytes)) &&
+        pressed.store.write(*pressed.place.entry, 0, bytes).ok();
     if (!written) {
       pressed.release();
       return Problem{"ROBOT_JOG cannot be written"};

@@ -84,9 +84,6 @@ class JogDesk {
     // Writes the next beat, if the switch is still as this client has left it. Else, and if the board is locked,
     // releases the switch and returns the outcome: two clients that press it would not know who moves the robot.
     const char* send_beat();
-    // `change` writes fields into the value of the switch. Returns false if it cannot be written.
-    template <class Change>
-    bool press(Change change);
     void release();
   };
   static Result<Switch, base::Problem> switch_of(const vars::Store& store, const std::string& robot);
