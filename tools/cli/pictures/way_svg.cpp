@@ -19,7 +19,7 @@ namespace {
 constexpr double kWayLeft = 64;    // for the numbers of the upward axis
 constexpr double kWayTop = 34;     // for the name
 constexpr double kWayBottom = 34;  // for the numbers of the other axis
-constexpr double kApart = 30;      // between the views
+constexpr double kApart = 30;      // between the projections
 constexpr double kEndRadius = 4;
 
 struct DrawnArea {
@@ -69,18 +69,18 @@ void grid(const Frame& frame, base::SvgPart& out) {
   }
 }
 
-void draw(const Projection& view, const Frame& frame, const std::string& name, base::SvgPart& out) {
+void draw(const Projection& projection, const Frame& frame, const std::string& name, base::SvgPart& out) {
   svg_text(out, frame.left, kWayTop - 12, "start", "name",
-           fmt::format("{}: {} across, {} up", name, view.across_name, view.up_name));
+           fmt::format("{}: {} across, {} up", name, projection.across_name, projection.up_name));
   grid(frame, out);
   std::string way;
   std::array<double, 4> ends{};  // first and last point
-  for (std::size_t i = 0; i < std::min(view.across.size(), view.up.size()); ++i) {
-    if (!std::isfinite(view.across[i]) || !std::isfinite(view.up[i])) {
+  for (std::size_t i = 0; i < std::min(projection.across.size(), projection.up.size()); ++i) {
+    if (!std::isfinite(projection.across[i]) || !std::isfinite(projection.up[i])) {
       continue;
     }
-    const double x = frame.x(view.across[i]);
-    const double y = frame.y(view.up[i]);
+    const double x = frame.x(projection.across[i]);
+    const double y = frame.y(projection.up[i]);
     if (way.empty()) {
       ends = {x, y, x, y};
     } else if (base::svg_number(x) == base::svg_number(ends[2]) && base::svg_number(y) == base::svg_number(ends[3])) {
@@ -104,29 +104,29 @@ base::SvgPart way_svg(const Series& series, double width) {
   }
   const bool flat = series.lines.size() == 2;
   const double each = (width - (flat ? 1 : 2) * kWayLeft - (flat ? 0 : kApart)) / (flat ? 1 : 2);
-  std::vector<Projection> views{{kWayLeft, each, "x", "y", series.lines[0], series.lines[1]}};
+  std::vector<Projection> projections{{kWayLeft, each, "x", "y", series.lines[0], series.lines[1]}};
   if (!flat) {
-    views.push_back({2 * kWayLeft + each + kApart, each, "x", "z", series.lines[0], series.lines[2]});
+    projections.push_back({2 * kWayLeft + each + kApart, each, "x", "z", series.lines[0], series.lines[2]});
   }
   const double height = kWayHeight - kWayTop - kWayBottom;
   std::vector<Frame> frames;
   double per_unit = std::numeric_limits<double>::infinity();
-  for (const Projection& view : views) {
-    Frame frame{view.left, kWayTop, view.width, height, 1, {}, {}};
-    frame.across.take(view.across);
-    frame.up.take(view.up);
+  for (const Projection& projection : projections) {
+    Frame frame{projection.left, kWayTop, projection.width, height, 1, {}, {}};
+    frame.across.take(projection.across);
+    frame.up.take(projection.up);
     if (frame.across.empty() || frame.up.empty()) {
       return out;
     }
     constexpr double kRoom = 1.1;
     constexpr double kLeast = 1e-6;
-    per_unit = std::min({per_unit, view.width / (kRoom * std::max(frame.across.size(), kLeast)),
+    per_unit = std::min({per_unit, projection.width / (kRoom * std::max(frame.across.size(), kLeast)),
                          height / (kRoom * std::max(frame.up.size(), kLeast))});
     frames.push_back(frame);
   }
-  for (std::size_t i = 0; i < views.size(); ++i) {
+  for (std::size_t i = 0; i < projections.size(); ++i) {
     frames[i].per_unit = per_unit;
-    draw(views[i], frames[i], series.name, out);
+    draw(projections[i], frames[i], series.name, out);
   }
   return out;
 }
