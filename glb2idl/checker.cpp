@@ -241,6 +241,7 @@ class Checker {
     result.alarms = std::move(notes.alarms);
     result.retain = notes.retain;
     result.view = notes.view;
+    result.optional = notes.optional;
     result.maxage_ns = notes.maxage_ns;
     result.source = context_.source(name);
     if (declarator.initial) {

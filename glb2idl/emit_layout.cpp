@@ -74,6 +74,9 @@ std::string properties(const schema::Variable& v) {
   if (v.view) {
     add("view");
   }
+  if (v.optional) {
+    add("optional");
+  }
   if (v.maxage_ns != 0) {
     add(fmt::format("maxage {}", duration_text(v.maxage_ns)));
   }

@@ -25,11 +25,12 @@ struct Rule {
   std::string_view usage;
 };
 constexpr std::size_t kSome = 99;  // read_alarm() checks the number itself
-constexpr std::array<Rule, 8> kRules{{{"unit", 1, true, "@unit(\"mm\")"},
+constexpr std::array<Rule, 9> kRules{{{"unit", 1, true, "@unit(\"mm\")"},
                                       {"range", 2, true, "@range(0, 180)"},
                                       {"desc", 1, true, "@desc(\"what it is\")"},
                                       {"retain", 0, false, "@retain"},
                                       {"view", 0, false, "@view"},
+                                      {"optional", 0, false, "@optional"},
                                       {"maxage", 1, false, "@maxage(10ms)"},
                                       {"fallback", 1, false, "@fallback(0)"},
                                       {"alarm", kSome, true, "@alarm(\"what is wrong\", high, 500ms)"}}};
@@ -104,6 +105,8 @@ class Reader {
       notes_.retain = true;
     } else if (rule.name == "view") {
       notes_.view = true;
+    } else if (rule.name == "optional") {
+      notes_.optional = true;
     } else if (rule.name == "alarm") {
       if (std::exchange(inherited_alarms_, false)) {
         notes_.alarms.clear();

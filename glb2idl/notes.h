@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Annotations: @unit("mm") @range(0, 180) @retain @view @maxage(10ms) @fallback(0) @desc("...") @alarm("...", high).
+// Annotations: @unit("mm") @range(0, 180) @retain @view @optional @maxage(10ms) @fallback(0) @desc("...")
+// @alarm("...", high).
 
 #pragma once
 
@@ -20,6 +21,7 @@ struct Notes {
   std::vector<schema::Alarm> alarms;
   bool retain = false;
   bool view = false;
+  bool optional = false;
   std::int64_t maxage_ns = 0;
   const ast::Initializer* fallback = nullptr;  // inside the given annotation
 };

@@ -54,7 +54,7 @@ void check_never_written(const std::string& name, const Users& users, const Uses
 void check_writers(const Uses& uses, const std::set<std::string>& set_by_hand, base::Diagnostics& report) {
   for (const auto& [name, users] : uses.variables()) {
     check_writers_of_one_board(name, users, uses, report);
-    if (users.writers.empty() && !users.readers.empty() && !set_by_hand.contains(name)) {
+    if (users.writers.empty() && !users.readers.empty() && !users.optional && !set_by_hand.contains(name)) {
       check_never_written(name, users, uses, report);
     }
     if (users.readers.empty() && uses.unknown_readers().empty()) {

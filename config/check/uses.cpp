@@ -30,8 +30,9 @@ Uses::Uses(std::span<const BoardView> boards) : boards_(boards) {
       }
     }
     for (const schema::Variable& one : board.result.schema.variables) {
-      if (const auto used = one.given ? variables_.find(one.name) : variables_.end(); used != variables_.end()) {
-        used->second.given = true;
+      if (const auto used = variables_.find(one.name); used != variables_.end()) {
+        used->second.given |= one.given;
+        used->second.optional |= one.optional;
       }
     }
     for (const std::size_t module : board.result.unknown_readers) {

@@ -33,7 +33,8 @@ struct User {
 struct Users {
   std::vector<User> readers;  // by board, then in order of execution
   std::vector<User> writers;
-  bool given = false;  // declared with a value
+  bool given = false;     // declared with a value
+  bool optional = false;  // declared @optional
 };
 
 class Uses {

@@ -298,8 +298,9 @@ bool read_variable(const json& object, Variable& to) {
   }
   to.type_hash = hash_of(to.type);
   const bool sound = read_notes(object, to) && read_flag(object, "retain", to.retain) &&
-                     read_flag(object, "view", to.view) && read_time(object, "maxage_ns", to.maxage_ns) &&
-                     read_flag(object, "given", to.given) && read_bytes(object, "initial", size, to.initial) &&
+                     read_flag(object, "view", to.view) && read_flag(object, "optional", to.optional) &&
+                     read_time(object, "maxage_ns", to.maxage_ns) && read_flag(object, "given", to.given) &&
+                     read_bytes(object, "initial", size, to.initial) &&
                      read_bytes(object, "fallback", size, to.fallback) && read_string(object, "source", to.source);
   to.given = to.given || !to.initial.empty();
   return sound;

@@ -92,6 +92,9 @@ ordered_json variable_json(const Variable& variable) {
   if (variable.view) {
     out["view"] = true;
   }
+  if (variable.optional) {
+    out["optional"] = true;
+  }
   if (variable.maxage_ns != 0) {
     out["maxage_ns"] = variable.maxage_ns;
   }

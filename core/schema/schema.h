@@ -107,11 +107,14 @@ struct Variable {
   bool view = false;                   // for tools only: versions of a module may write different values
   std::int64_t maxage_ns = 0;          // 0: none
   std::vector<std::uint8_t> initial;   // empty: all zero, else type.size() bytes
-  bool given = false;                  // an initial value was written, even 0: without a writer it is a parameter
+  bool given = false;                  // an initial value was written, even 0
+  bool optional = false;               // a request or measurement that need not be there: never a parameter
   std::vector<std::uint8_t> fallback;  // empty: none declared
   std::string source;                  // "knuRobot.glb:3"
   std::vector<Alarm> alarms;
   [[nodiscard]] std::uint64_t name_hash() const noexcept { return abi::fnv1a64(name.data(), name.size()); }
+  // What people tune: recipes save it, and the lock `tune` permits to set it.
+  [[nodiscard]] bool is_parameter() const noexcept { return given && !optional; }
 };
 
 // A shared function: arguments and result travel as two structs through a call slot of the store.

@@ -46,7 +46,7 @@ std::optional<Refusal> refusal(const std::string& node, vars::Act act) {
 
 std::optional<Refusal> refusal_to_set(const std::string& node, const std::vector<Assignment>& assignments) {
   const bool tuning = std::all_of(assignments.begin(), assignments.end(),
-                                  [](const Assignment& one) { return one.item.place.variable->given; });
+                                  [](const Assignment& one) { return one.item.place.variable->is_parameter(); });
   return refusal(node, tuning ? vars::Act::SetParameter : vars::Act::Set);
 }
 

@@ -173,7 +173,7 @@ void ExternalTopic::receive() noexcept {
 
 // Returns why the write lock forbids tools to set the variable; empty if it does not.
 std::string ExternalTopic::locked() const {
-  const auto act = variable().given ? vars::Act::SetParameter : vars::Act::Set;
+  const auto act = variable().is_parameter() ? vars::Act::SetParameter : vars::Act::Set;
   return custody_ == nullptr ? std::string() : vars::refusal(custody_->lock(), act).value_or("");
 }
 

@@ -80,6 +80,23 @@ TEST_F(RobotNode, Where_it_stands_is_written_into_its_files) {
   }
 }
 
+TEST_F(RobotNode, Its_requests_are_no_parameters) {
+  begin("");
+  const Outcome saved = indurop({"recipe", "save", "all"});
+  ASSERT_EQ(saved.code, 0) << saved.err;
+  EXPECT_THAT(indurop({"recipe", "list", "-o", "json"}).out, testing::HasSubstr("\"values\":1,")) << "the override";
+  ASSERT_EQ(indurop({"lock", "tune"}).code, 0);
+  for (const char* request : {"ROBOT_JOG", "ROBOT_MODE", "ROBOT_ANSWER", "ROBOT_PAUSE", "ROBOT_GUIDE"}) {
+    const Outcome refused = indurop({"set", std::string("PLC_ROBOT::") + request, "{}"});
+    EXPECT_NE(refused.code, 0) << request;
+    EXPECT_THAT(refused.err, testing::HasSubstr("only parameters may be written")) << request;
+  }
+  EXPECT_NE(indurop({"set", "PLC_ROBOT::ROBOT_HOLD", "1"}).code, 0);
+  EXPECT_EQ(indurop({"set", "PLC_ROBOT::ROBOT_OVERRIDE", "50"}).code, 0);
+  EXPECT_EQ(number("PLC_ROBOT::ROBOT_OVERRIDE"), 50);
+  EXPECT_EQ(indurop({"lock", "none"}).code, 0);
+}
+
 TEST_F(RobotNode, Jobs_are_read_again_at_standstill) {
   begin("POINT A = JOINT 30 10 -10 0 40 -20\nMOVJ A\nSET O8 ON\n");
   ASSERT_EQ(serve("eOpCode: 1"), 0);

@@ -86,6 +86,15 @@ TEST_F(CheckAccess, Read_but_never_written_with_a_value_of_its_own_is_a_paramete
               ElementsAre(HasSubstr("note: 'n::gain' is read by a but no module writes it: a parameter")));
 }
 
+TEST_F(CheckAccess, Optional_variables_need_no_writer) {
+  ModuleSpec spec;
+  spec.schema.variables.push_back(variable("n::button"));
+  spec.schema.variables.back().optional = true;
+  spec.reads = {"n::button"};
+  write_module(folder_ / "a.so", spec);
+  EXPECT_THAT(check_lines(periodic("a.so", "1ms", 1)), IsEmpty());
+}
+
 TEST_F(CheckAccess, For_sensor_control_and_motor_in_the_wrong_order_a_message_says_what_to_swap) {
   write("RS.so", {}, {"n::sensor"});
   write("GC.so", {"n::sensor"}, {"n::command"});

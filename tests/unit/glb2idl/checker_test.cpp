@@ -103,6 +103,9 @@ TEST(Initial, Values_become_bytes) {
   EXPECT_TRUE(variable(compile_text("int x = 0;"), "x").initial.empty()) << "memory is 0 without it";
   EXPECT_TRUE(variable(compile_text("int x = 0;"), "x").given);
   EXPECT_FALSE(variable(compile_text("int x;"), "x").given);
+  EXPECT_TRUE(variable(compile_text("int x = 0;"), "x").is_parameter());
+  EXPECT_FALSE(variable(compile_text("int x = 0 @optional;"), "x").is_parameter());
+  EXPECT_FALSE(variable(compile_text("int x @optional;"), "x").is_parameter());
   EXPECT_EQ(variable(compile_text("int x @fallback(0);"), "x").fallback.size(), 4U) << "a fallback of 0 is a fallback";
 }
 

@@ -71,11 +71,11 @@ Action declare_lock(base::Options& app, Context& context) {
 const Verb kLockVerb{
     "lock", "Variables", "Protect a node against accidental writes",
     "none: users who have the rights may set, force, load recipes and stop modules. tune: parameters (variables\n"
-    "declared with a value) may be set, nothing else. all: nothing may be changed. The lock applies to every\n"
-    "tool, the page and commands from the network, until it is changed; it survives a restart of the node, but\n"
-    "not of the machine. Modules and boards of the plant continue to write, existing forces stay, and a whole\n"
-    "node can be stopped. Every user who may write may also unlock: the lock protects against mistakes, not\n"
-    "against people.\n"
+    "declared with a value and not @optional) may be set, nothing else. all: nothing may be changed. The lock\n"
+    "applies to every tool, the page and commands from the network, until it is changed; it survives a restart\n"
+    "of the node, but not of the machine. Modules and boards of the plant continue to write, existing forces\n"
+    "stay, and a whole node can be stopped. Every user who may write may also unlock: the lock protects against\n"
+    "mistakes, not against people.\n"
     "Examples:\n"
     "  indurop lock tune --reason production\n"
     "  indurop lock none --board control --keys keys\n"

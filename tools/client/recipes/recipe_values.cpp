@@ -44,13 +44,13 @@ Result<void, std::vector<std::string>> take_values(const vars::Store& store, con
                                                    Recipe& to) {
   std::vector<std::string> wanted = names;
   for (const schema::Variable& variable : store.schema().variables) {
-    if (names.empty() && variable.given) {
+    if (names.empty() && variable.is_parameter()) {
       wanted.push_back(variable.name);
     }
   }
   if (wanted.empty()) {
     return std::vector<std::string>{
-        "no variable of this node is a parameter (declared with a value): name what to save"};
+        "no variable of this node is a parameter (declared with a value and not @optional): name what to save"};
   }
   const auto items = operate::select(store, wanted);
   if (!items) {

@@ -12,7 +12,7 @@
 #define INDUROP_LEAF ::indurop::Leaf
 #endif
 
-asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_3397f66ee9f09c52,comdat
+asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_5555fe8fe02cb9e4,comdat
 .ascii "{\"schema\":1,\"abi\":5,\"variables\":[{\"name\":\"demo::angle\",\"type\":\"double\",\"kind\":\"scalar\",\"unit\":\"deg\","
 .ascii "\"description\":\"angle of the arm\",\"range\":[0.0,180.0],\"retain\":true,\"maxage_ns\":10000000,\"initial\":\"0"
 .ascii "000000000804640\",\"fallback\":\"0000000000a05640\",\"source\":\"in.glb:2\"},{\"name\":\"demo::pos\",\"type\":\"doub"
@@ -26,10 +26,10 @@ asm(R"indurop(.pushsection .indurop.schema,"G",%progbits,indurop_schema_3397f66e
 .ascii "\"kind\":\"ring\",\"maxage_ns\":100000,\"fallback\":\"07000000010000000000003f0000803e\",\"source\":\"in.glb:12\"}"
 .ascii ",{\"name\":\"demo::emergency\",\"type\":\"bool\",\"kind\":\"scalar\",\"description\":\"Two lines of comment.\",\"fall"
 .ascii "back\":\"01\",\"source\":\"in.glb:15\"},{\"name\":\"demo::note\",\"type\":{\"base\":\"text\",\"size\":32},\"kind\":\"ring\""
-.ascii ",\"retain\":true,\"view\":true,\"initial\":\"66696e65000000000000000000000000000000000000000000000000000000"
-.ascii "00\",\"fallback\":\"6c6f737400000000000000000000000000000000000000000000000000000000\",\"source\":\"in.glb:1"
-.ascii "6\"},{\"name\":\"demo::level\",\"type\":\"uint8\",\"kind\":\"scalar\",\"description\":\"\\\"quotes\\\", back\\\\slash and "
-.ascii "\\u00fctf-8 \\\\\",\"range\":[0.0,255.0],\"source\":\"in.glb:17\"}]}"
+.ascii ",\"retain\":true,\"view\":true,\"optional\":true,\"initial\":\"66696e6500000000000000000000000000000000000000"
+.ascii "000000000000000000\",\"fallback\":\"6c6f737400000000000000000000000000000000000000000000000000000000\",\"s"
+.ascii "ource\":\"in.glb:16\"},{\"name\":\"demo::level\",\"type\":\"uint8\",\"kind\":\"scalar\",\"description\":\"\\\"quotes\\\", "
+.ascii "back\\\\slash and \\u00fctf-8 \\\\\",\"range\":[0.0,255.0],\"source\":\"in.glb:17\"}]}"
 .ascii "\n"
 .popsection)indurop");
 
@@ -52,7 +52,7 @@ constexpr void indurop_fields(const Axis& v, indurop_visitor f) {
 }
 }  // namespace demo
 
-namespace indurop_generated_3397f66ee9f09c52 __attribute__((visibility("hidden"))) {
+namespace indurop_generated_5555fe8fe02cb9e4 __attribute__((visibility("hidden"))) {
 inline constexpr double initial_demo_angle{45.0};
 inline constexpr ::indurop::string<32> initial_demo_note{"fine"};
 inline constinit ::indurop::abi::Ref refs[] = {
@@ -140,15 +140,15 @@ union ref_demo_Axis {
   INDUROP_UNION_SHAPE(ref_demo_Axis)
   INDUROP_FRESHNESS(indurop_tag)
 };
-}  // namespace indurop_generated_3397f66ee9f09c52
+}  // namespace indurop_generated_5555fe8fe02cb9e4
 
 namespace demo {
-inline constexpr INDUROP_LEAF<::indurop_generated_3397f66ee9f09c52::var_demo_angle, double, 0> angle{::indurop::Place{0}, ::indurop::detail::Make{}};  // angle of the arm [deg]
-inline constexpr INDUROP_LEAF<::indurop_generated_3397f66ee9f09c52::var_demo_pos, double, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [mm]
-inline constexpr INDUROP_LEAF<::indurop_generated_3397f66ee9f09c52::var_demo_depth, double, 0> depth{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [m]
-inline constexpr INDUROP_LEAF<::indurop_generated_3397f66ee9f09c52::var_demo_count, ::std::int32_t, 0> count{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr ::indurop_generated_3397f66ee9f09c52::ref_demo_Axis<::indurop_generated_3397f66ee9f09c52::var_demo_axis, 0> axis{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_3397f66ee9f09c52::var_demo_emergency, bool, 0> emergency{::indurop::Place{0}, ::indurop::detail::Make{}};  // Two lines of comment.
-inline constexpr ::indurop::Text<::indurop_generated_3397f66ee9f09c52::var_demo_note, 32, 0> note{::indurop::Place{0}, ::indurop::detail::Make{}};
-inline constexpr INDUROP_LEAF<::indurop_generated_3397f66ee9f09c52::var_demo_level, ::std::uint8_t, 0> level{::indurop::Place{0}, ::indurop::detail::Make{}};  // "quotes", back\slash and ütf-8 \ .
+inline constexpr INDUROP_LEAF<::indurop_generated_5555fe8fe02cb9e4::var_demo_angle, double, 0> angle{::indurop::Place{0}, ::indurop::detail::Make{}};  // angle of the arm [deg]
+inline constexpr INDUROP_LEAF<::indurop_generated_5555fe8fe02cb9e4::var_demo_pos, double, 0> pos{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [mm]
+inline constexpr INDUROP_LEAF<::indurop_generated_5555fe8fe02cb9e4::var_demo_depth, double, 0> depth{::indurop::Place{0}, ::indurop::detail::Make{}};  // where the tool is [m]
+inline constexpr INDUROP_LEAF<::indurop_generated_5555fe8fe02cb9e4::var_demo_count, ::std::int32_t, 0> count{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr ::indurop_generated_5555fe8fe02cb9e4::ref_demo_Axis<::indurop_generated_5555fe8fe02cb9e4::var_demo_axis, 0> axis{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_5555fe8fe02cb9e4::var_demo_emergency, bool, 0> emergency{::indurop::Place{0}, ::indurop::detail::Make{}};  // Two lines of comment.
+inline constexpr ::indurop::Text<::indurop_generated_5555fe8fe02cb9e4::var_demo_note, 32, 0> note{::indurop::Place{0}, ::indurop::detail::Make{}};
+inline constexpr INDUROP_LEAF<::indurop_generated_5555fe8fe02cb9e4::var_demo_level, ::std::uint8_t, 0> level{::indurop::Place{0}, ::indurop::detail::Make{}};  // "quotes", back\slash and ütf-8 \ .
 }  // namespace demo

@@ -17,6 +17,7 @@ Schema sample() {
   joints.description = "tool, \"quoted\" \xC2\xB0 \\ \n";
   joints.retain = true;
   joints.view = true;
+  joints.optional = true;
   joints.maxage_ns = 5'000'000'000'000;
   joints.initial.assign(240, 0xA5);
   joints.fallback.assign(240, 0x01);

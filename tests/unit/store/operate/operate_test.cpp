@@ -62,6 +62,8 @@ schema::Schema variables() {
                       variable("other::axis2", number())};
   schema.variables[0].range = schema::Range{0, 10};
   schema.variables[0].given = true;
+  schema.variables[2].given = true;
+  schema.variables[2].optional = true;
   return schema;
 }
 
@@ -211,6 +213,7 @@ TEST_F(Operate, The_lock_decides_what_may_be_done) {
     };
     allowed(set_lines({"gain=1"}), lock != vars::WriteLock::All);
     allowed(set_lines({"gain=1", "axis2=1"}), free);
+    allowed(set_lines({"axis2=1"}), free);  // declared with a value, but a request
     allowed(force({"gain=1"}), free);
     allowed(release(node_, *store_, *select(*store_, {"gain"}), ana_), free);
   }
