@@ -2,6 +2,8 @@
 
 #include "store/vars/block.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -10,9 +12,11 @@
 #include <numeric>
 #include <string_view>
 
+#include "core/rt/clock.h"
 #include "core/rt/shared_mutex.h"
 #include "store/vars/call_layout.h"
 #include "store/vars/forces.h"
+#include "store/vars/process.h"
 #include "store/vars/tear_free_ring.h"
 
 namespace indurop::vars {
@@ -251,6 +255,21 @@ Status fill_block(std::byte* memory, const BlockPlan& plan, const std::string& n
     return no_locks;
   }
   return {};
+}
+
+bool locks_work(std::byte* memory, std::span<const DirectoryEntry> directory) noexcept {
+  return std::all_of(directory.begin(), directory.end(), [&](const DirectoryEntry& entry) {
+    return entry.kind == abi::Kind::Scalar ||
+           check_ring(*reinterpret_cast<abi::RingHeader*>(memory + entry.offset), entry.value_size);
+  });
+}
+
+void sign_in(BlockHeader& header, std::uint64_t generation) noexcept {
+  header.node_start_time.store(process_start_time(::getpid()), std::memory_order_relaxed);
+  header.node_pid.store(::getpid(), std::memory_order_relaxed);
+  header.heartbeat_ns.store(rt::now_ns(), std::memory_order_relaxed);
+  header.virtual_ns.store(0, std::memory_order_relaxed);
+  header.generation.store(generation, std::memory_order_release);
 }
 
 Status check_header(std::span<const std::byte> memory) {

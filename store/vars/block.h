@@ -39,6 +39,12 @@ Status fill_block(std::byte* memory, const BlockPlan& plan, const std::string& n
 // Errors: Busy (not yet complete), VersionMismatch (another ABI), Corrupt (not a store's header, or of another size).
 Status check_header(std::span<const std::byte> memory);
 
+// Returns false if a lock of a variable does not work: a process has overwritten it. Repairs what killed ones left.
+bool locks_work(std::byte* memory, std::span<const DirectoryEntry> directory) noexcept;
+
+// From now on, this process is the node of the block, in its next run.
+void sign_in(BlockHeader& header, std::uint64_t generation) noexcept;
+
 // What a block has, copied so that no process can change it during use.
 struct BlockIndex {
   std::vector<DirectoryEntry> directory;  // an entry keeps its place in it when the store grows

@@ -20,7 +20,6 @@
 #include "store/vars/block.h"
 #include "store/vars/node_lock.h"
 #include "store/vars/previous_block.h"
-#include "store/vars/process.h"
 #include "store/vars/scalar.h"
 #include "store/vars/tear_free_ring.h"
 
@@ -67,20 +66,16 @@ constexpr std::int64_t kReadLimitNs = 50'000'000;
 constexpr int kSwapTries = 100;  // one millisecond each
 constexpr Error kMoved{Errc::TypeMismatch, 0, "the variable has another layout since"};
 
-// The node may have been killed while it held locks, or a process overwrote them.
-bool rings_work(const ShmFile& file, const std::vector<DirectoryEntry>& directory) noexcept {
-  return std::all_of(directory.begin(), directory.end(), [&](const DirectoryEntry& entry) {
-    return entry.kind == abi::Kind::Scalar ||
-           check_ring(*reinterpret_cast<abi::RingHeader*>(file.data() + entry.offset), entry.value_size);
-  });
-}
-
-void sign_in(BlockHeader& header, std::uint64_t generation) noexcept {
-  header.node_start_time.store(process_start_time(::getpid()), std::memory_order_relaxed);
-  header.node_pid.store(::getpid(), std::memory_order_relaxed);
-  header.heartbeat_ns.store(rt::now_ns(), std::memory_order_relaxed);
-  header.virtual_ns.store(0, std::memory_order_relaxed);
-  header.generation.store(generation, std::memory_order_release);
+// Copies the bytes whose element in `only` is not 0; all of them if it is empty.
+void copy_bytes(unsigned char* to, std::span<const std::uint8_t> from, std::span<const std::uint8_t> only) noexcept {
+  if (only.empty()) {
+    indurop::detail::copy_to_shared(to, from.data(), from.size());
+  }
+  for (std::size_t at = 0; at < only.size(); ++at) {
+    if (only[at] != 0) {
+      indurop::detail::copy_to_shared(to + at, &from[at], 1);
+    }
+  }
 }
 
 void fill_slot(unsigned char* slot, std::size_t size, std::span<const std::uint8_t> initial) noexcept {
@@ -112,7 +107,7 @@ Result<Store> Store::create(const std::string& node, const schema::Schema& schem
     BlockHeader& old = *header_of(previous->file->data());
     generation = old.generation.load(std::memory_order_acquire) + 1;
     if (previous->index->growths == 0 && old.layout_hash == plan->layout_hash &&
-        rings_work(*previous->file, previous->index->directory)) {
+        locks_work(previous->file->data(), previous->index->directory)) {
       static_cast<void>(remove_unfinished(block_file(node)));
       previous->own_everything();
       release_all(old, previous->index->directory);
@@ -262,7 +257,8 @@ Status Store::read(const DirectoryEntry& variable, std::uint32_t offset, std::sp
   return moved(variable) ? Status(kMoved) : Status();
 }
 
-Status Store::write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from) noexcept {
+Status Store::write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from,
+                    std::span<const std::uint8_t> only) noexcept {
   if (impl_->file.mode() == Mode::ReadOnly) {
     return Error{Errc::PermissionDenied, 0, "write through a read-only view"};
   }
@@ -274,11 +270,12 @@ Status Store::write(const DirectoryEntry& variable, std::uint32_t offset, std::s
     return moved(variable) ? Status(kMoved) : Status();
   }
   abi::RingHeader& ring = impl_->ring(variable);
-  auto* slot = static_cast<unsigned char*>(begin_write(ring, offset, static_cast<std::uint32_t>(from.size())));
+  auto* slot = static_cast<unsigned char*>(
+      only.empty() ? begin_write(ring, offset, static_cast<std::uint32_t>(from.size())) : begin_edit(ring));
   if (slot == nullptr) {
     return Error{Errc::Busy, 0, "write lock of a variable"};
   }
-  indurop::detail::copy_to_shared(slot + offset, from.data(), from.size());
+  copy_bytes(slot + offset, from, only);
   commit(ring);
   return moved(variable) ? Status(kMoved) : Status();
 }

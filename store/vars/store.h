@@ -79,9 +79,13 @@ class Store {
   // OutOfRange, Dead (lost()), Timeout (read-only: the variable is written without a pause), TypeMismatch (its type has
   // changed since it was found: attach again).
   Status read(const DirectoryEntry& variable, std::uint32_t offset, std::span<std::uint8_t> to) const noexcept;
-  // Writes the whole value or a part of it in one commit. Errors: OutOfRange, Busy (lock not free in 5 ms: its holder
-  // is stopped), PermissionDenied (read-only), TypeMismatch (as of read(); whether the value was carried is open).
-  Status write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from) noexcept;
+  // Writes the whole value or a part of it in one commit; of the part only those bytes whose element in `only` is not
+  // 0, if it is not empty (it is as long as `from`; of a scalar always the whole part). All others keep what they have
+  // at the commit, also if another thread has just written them. Errors: OutOfRange, Busy (lock not free in 5 ms: its
+  // holder is stopped), PermissionDenied (read-only), TypeMismatch (as of read(); whether the value was carried is
+  // open).
+  Status write(const DirectoryEntry& variable, std::uint32_t offset, std::span<const std::uint8_t> from,
+               std::span<const std::uint8_t> only = {}) noexcept;
 
   // Holds a part of a variable, of 1, 2, 4 or 8 bytes, at a value until a time (or kForever) against all writers;
   // create() ends all forces. Not real-time safe. Errors: OutOfRange, InvalidArgument (size), NoSpace (kMaxForces are

@@ -4,12 +4,17 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <random>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -171,6 +176,30 @@ TEST_F(Operate, Assignments_of_parts_of_one_value_add_up) {
   ASSERT_TRUE(set_lines({"axis={x: 1}", "axis={y: 2}", "axis.x=3"}).ok());
   EXPECT_EQ(value("axis.x"), 3);
   EXPECT_EQ(value("axis.y"), 2);
+}
+
+// A module that owns `x` must never read anything but what it wrote.
+TEST_F(Operate, Parts_that_are_not_mentioned_keep_what_a_module_writes_meanwhile) {
+  std::uint64_t lost = 0;
+  {
+    const std::jthread module([&](const std::stop_token& end) {
+      auto own = vars::Store::attach(node_, vars::Mode::ReadWrite);
+      const vars::DirectoryEntry& axis = *find(*own, "axis")->entry;
+      std::array<std::uint8_t, sizeof(double)> wrote{};
+      for (double count = 1; !end.stop_requested(); ++count) {
+        auto now = wrote;
+        lost += own->read(axis, 0, now) && now == wrote ? 0U : 1U;
+        wrote = std::bit_cast<decltype(wrote)>(count);
+        lost += own->write(axis, 0, wrote) ? 0U : 1U;
+      }
+    });
+    for (int i = 1; i <= 3000; ++i) {
+      ASSERT_TRUE(set_lines({"axis={y: " + std::to_string(i) + "}"}).ok());
+      EXPECT_EQ(value("axis.y"), i);
+    }
+  }
+  EXPECT_EQ(lost, 0U);
+  EXPECT_GT(value("axis.x"), 0);
 }
 
 TEST_F(Operate, Names_all_that_is_wrong_and_changes_nothing) {
