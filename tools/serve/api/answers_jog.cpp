@@ -21,12 +21,11 @@ Reply about_hand(const Call& call, What what) {
   if (!what((*found)->name(), name)) {
     return refusal(status::kNotFound,
                    "this jog has ended: it was not renewed in time, you may no longer jog the robot, its board has "
-                   "ended or is locked, "
-                   "or another client has written ROBOT_JOG");
+                   "ended or is "
+                   "locked, or another client has written ROBOT_JOG");
   }
   base::Json body = about(**found);
   body["jog"] = name;
-  body["keep_ns"] = JogDesk::kKeepNs;
   return json_reply(body);
 }
 
