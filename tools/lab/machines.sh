@@ -170,12 +170,14 @@ remove_machine() {
 
 # into BOARD SSH-WORDS...: through its door. -q: the door's key is new with every image, which ssh would tell each time.
 # The patience, in seconds, is for the exchange of keys as well, which takes long without KVM on a busy machine.
+# A machine that was reset meanwhile knows nothing of the connection: after three minutes without an answer, ssh ends.
 patience=60
 into() {
   name=$1
   shift
   ip netns exec "$switch" ssh -q -i "$(fact "$name" image)/key" -p $((door_ports + $(fact "$name" number))) -o BatchMode=yes \
-    -o StrictHostKeyChecking=no -o UserKnownHostsFile=/dev/null -o ConnectTimeout=$patience -l root 127.0.0.1 "$@"
+    -o StrictHostKeyChecking=no -o UserKnownHostsFile=/dev/null -o ConnectTimeout=$patience \
+    -o ServerAliveInterval=20 -o ServerAliveCountMax=9 -l root 127.0.0.1 "$@"
 }
 
 wait_for_machine() {
