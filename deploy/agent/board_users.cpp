@@ -29,8 +29,9 @@ using base::Problem;
 using config::UserRole;
 
 constexpr mode_t kListMode = 0640;
-// A list may skip so many serials: an administrator cannot use up all of them.
-constexpr std::uint64_t kMostSteps = 1'000'000;
+// A list may skip so many serials, which are seconds since 1970 (next_serial): an administrator cannot use up all of
+// them.
+constexpr std::uint64_t kMostSteps = 1ULL << 32U;
 
 std::string text_of_file(const fs::path& file) {
   auto text = base::read_file(file);

@@ -29,6 +29,11 @@ std::optional<std::uint64_t> number_of(std::string_view text) {
 
 }  // namespace
 
+std::uint64_t next_serial(std::uint64_t highest, std::int64_t wall_ns) noexcept {
+  constexpr std::int64_t kSecondNs = 1'000'000'000;
+  return std::max(highest + 1, static_cast<std::uint64_t>(std::max<std::int64_t>(wall_ns, 0) / kSecondNs));
+}
+
 std::string text_of(const UserList& list) {
   return fmt::format("{}{}\n{}\n{}\n{}{}", kMark, list.plant, list.serial, list.signature.size(), list.signature,
                      list.users);

@@ -18,6 +18,11 @@ struct UserList {
   std::string signature;     // of signed_text(), like that of a Command; empty: unsigned
 };
 
+// Returns the serial of the list that a desk sends at this time, where `highest` is that of all boards which it has
+// found. The clock makes lists that are sent one after the other to different boards, while others are off, come in
+// this order: in seconds since 1970. A desk whose clock is behind counts on.
+std::uint64_t next_serial(std::uint64_t highest, std::int64_t wall_ns) noexcept;
+
 std::string text_of(const UserList& list);
 // Returns nothing if the text is not a list of users.
 std::optional<UserList> read_user_list(std::string_view text);

@@ -163,6 +163,46 @@ TEST_F(UserLists, Of_all_boards_are_the_newest_one_after_each_has_asked_all_othe
   EXPECT_GT(newest.serial, 5U);
 }
 
+// The oracle is the order of sending: the list that was accepted last is that of all boards, whichever were off when it
+// or those before it were sent.
+TEST_F(UserLists, Of_all_boards_are_the_last_one_that_a_desk_with_a_clock_has_sent) {
+  std::mt19937 random(2);
+  std::int64_t wall_ns = 1'796'000'000'000'000'000;
+  UserListId last;
+  for (int round = 0; round < 160; ++round) {
+    for (auto lists = random() % 4; lists > 0; --lists) {
+      wall_ns += 1'000'000'000 + static_cast<std::int64_t>(random());
+      const auto reached = 1U << (random() % kBoards) | (random() % 2 == 0 ? random() % (1U << kBoards) : 0U);
+      std::uint64_t highest = 0;
+      for (std::size_t i = 0; i < kBoards; ++i) {
+        const auto known = read_user_list(boards_[i].newer_than("cell", ""));
+        highest = (reached >> i) % 2 == 1 && known ? std::max(highest, known->serial) : highest;
+      }
+      const UserList list{"cell", next_serial(highest, wall_ns),
+                          "<users>\n  <user name=\"u" + std::to_string(random()) + "\" role=\"look\"/>\n</users>\n",
+                          ""};
+      for (std::size_t i = 0; i < kBoards; ++i) {
+        if ((reached >> i) % 2 == 1) {
+          EXPECT_TRUE(boards_[i].replace("cell", text_of(list)));
+          last = id_of(list);
+        }
+      }
+    }
+    for (auto some = random() % 6; some > 0; --some) {
+      ask(random() % kBoards, random() % kBoards);
+    }
+    for (std::size_t i = 0; round % 4 == 3 && i < kBoards; ++i) {
+      for (std::size_t j = 0; j < kBoards; ++j) {
+        ask(j, i);
+      }
+    }
+    for (std::size_t i = 0; round % 4 == 3 && last.serial > 0 && i < kBoards; ++i) {
+      EXPECT_EQ(boards_[i].id("cell"), text_of(last)) << "board " << i << " in round " << round;
+    }
+  }
+  EXPECT_EQ(next_serial(last.serial, 0), last.serial + 1) << "the clock of a desk may be wrong";
+}
+
 TEST_F(UserLists, Are_not_replaced_by_older_ones_or_those_of_other_plants_or_a_far_serial) {
   const auto list = [](const std::string& plant, std::uint64_t serial) {
     return text_of(UserList{plant, serial, "<users>\n  <user name=\"anna\" role=\"look\"/>\n</users>\n", ""});

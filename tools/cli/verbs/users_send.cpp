@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "config/users_reader.h"
+#include "core/rt/clock.h"
 #include "deploy/transaction/user_list.h"
 #include "tools/client/board/board_commander.h"
 #include "tools/client/board/board_roster.h"
@@ -22,12 +23,13 @@ constexpr std::int64_t kSendNs = 5'000'000'000;  // to discover boards, and for 
 deploy::UserList next_list(const std::string& plant, std::vector<config::PlantUser> users, deploy::DeployLink& link,
                            std::uint64_t self, const BoardRoster& roster) {
   deploy::UserList list{plant, 0, {}, {}};
+  std::uint64_t highest = 0;
   for (const auto& [agent, text] : fetch_texts(link, self, std::string(deploy::kUsersBlob), roster.agents())) {
     if (const auto known = deploy::read_user_list(text); known && known->plant == plant) {
-      list.serial = std::max(list.serial, known->serial);
+      highest = std::max(highest, known->serial);
     }
   }
-  ++list.serial;
+  list.serial = deploy::next_serial(highest, rt::wall_ns());
   for (config::PlantUser& user : users) {  // who signs in is decided by indurop serve
     user.password.clear();
     user.token.clear();
