@@ -13,6 +13,7 @@
 #include "tools/client/board/board_table.h"
 #include "tools/client/board/board_texts.h"
 #include "tools/client/text/units.h"
+#include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {
