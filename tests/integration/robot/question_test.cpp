@@ -25,7 +25,8 @@ TEST_F(RobotNode, Its_questions_are_answered_from_a_terminal) {
   const auto asked = first.json()["questions"][0];
   const auto asked_first = asked["number"].get<std::uint32_t>();
   EXPECT_GT(asked_first, 0U);
-  const std::string one = std::to_string(asked_first), two = std::to_string(asked_first + 1);
+  const std::string one = std::to_string(asked_first);
+  const std::string two = std::to_string(asked_first + 1);
   EXPECT_EQ(asked["question"], "Which tray?");
   EXPECT_EQ(asked["answers"], nlohmann::json({"left", "right"}));
   EXPECT_TRUE(asked["left_s"].is_null());
