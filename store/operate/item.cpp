@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/diagnostics.h"
+#include "core/schema/given_bytes.h"
 #include "core/schema/place_index.h"
 
 namespace indurop::operate {
@@ -199,10 +200,8 @@ Result<std::vector<Assignment>, std::vector<std::string>> parse_all(const vars::
   return all;
 }
 
-void write_over(const Assignment& one, std::span<std::uint8_t> bytes) {
-  if (!read_text(one, bytes)) {
-    std::copy(one.bytes.begin(), one.bytes.end(), bytes.begin());
-  }
+std::vector<std::uint8_t> given_bytes(const Assignment& one) {
+  return schema::given_bytes(one.bytes.size(), [&](std::span<std::uint8_t> over) { return read_text(one, over).ok(); });
 }
 
 bool lies_in(const vars::Force& force, const Item& item) noexcept {

@@ -59,8 +59,8 @@ Result<std::vector<Assignment>, std::vector<std::string>> parse_all(const vars::
                                                                     const std::vector<std::string>& lines,
                                                                     ReadLiteral literal = nullptr);
 
-// Merges `one` into `bytes`, the item's present ones.
-void write_over(const Assignment& one, std::span<std::uint8_t> bytes);
+// Returns 1 for each byte of the item that the text gives, and 0 for those of parts that it leaves out.
+std::vector<std::uint8_t> given_bytes(const Assignment& one);
 
 // Returns whether the forced part is inside the item; whether the two overlap.
 bool lies_in(const vars::Force& force, const Item& item) noexcept;

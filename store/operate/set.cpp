@@ -22,15 +22,9 @@ std::optional<Refusal> not_written(const std::string& name, const Error& error) 
   return Refusal{Why::Wrong, {fmt::format("{} cannot be written: {} ({})", name, error.where, to_string(error.code))}};
 }
 
-// Parts of a struct that the text does not mention are not written: a module may be writing them.
+// Parts of a struct that the text leaves out are not written: a module may be writing them.
 std::optional<Refusal> write(vars::Store& store, const Assignment& one) {
-  std::vector<std::uint8_t> bytes(one.bytes.size(), 0x00);
-  std::vector<std::uint8_t> mentioned(one.bytes.size(), 0xFF);
-  write_over(one, bytes);
-  write_over(one, mentioned);
-  std::transform(bytes.begin(), bytes.end(), mentioned.begin(), mentioned.begin(),
-                 [](std::uint8_t over_zeros, std::uint8_t over_ones) { return over_zeros == over_ones ? 1 : 0; });
-  const Status written = store.write(*one.item.entry, one.item.place.offset, bytes, mentioned);
+  const Status written = store.write(*one.item.entry, one.item.place.offset, one.bytes, given_bytes(one));
   return written ? std::nullopt : not_written(one.item.name, written.error());
 }
 

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <string>
 
+#include "core/schema/given_bytes.h"
+
 namespace indurop::vars {
 namespace {
 
@@ -91,14 +93,12 @@ Status for_each_own(Store& store, std::span<const HeldValue> values, rt::MonoTim
 
 std::vector<HeldPart> parts_to_hold(const schema::Type& type, std::string_view text,
                                     std::span<const std::uint8_t> bytes) {
-  // Bytes that are equal after parsing the text over zeros and over ones were given in the text.
-  std::vector<std::uint8_t> zeros(type.size(), 0x00);
-  std::vector<std::uint8_t> ones(type.size(), 0xFF);
-  const bool all = !schema::parse_value(type, text, zeros) || !schema::parse_value(type, text, ones);
+  const auto given = schema::given_bytes(
+      type.size(), [&](std::span<std::uint8_t> over) { return schema::parse_value(type, text, over).ok(); });
   std::vector<HeldPart> parts;
   for_each_leaf(type, 0, [&](const schema::Type& leaf, std::uint32_t offset) {
     const auto size = static_cast<std::uint32_t>(leaf.size());
-    if (!all && !std::equal(zeros.begin() + offset, zeros.begin() + offset + size, ones.begin() + offset)) {
+    if (std::count(given.begin() + offset, given.begin() + offset + size, 0) != 0) {
       return;
     }
     if (leaf.base == schema::Base::Text) {
