@@ -19,8 +19,8 @@ struct UserList {
 };
 
 // Returns the serial of the list that a desk sends at this time, where `highest` is that of all boards which it has
-// found. The clock makes lists that are sent one after the other to different boards, while others are off, come in
-// this order: in seconds since 1970. A desk whose clock is behind counts on.
+// found. It is the time in seconds since 1970, so that lists which are sent one after the other to different boards,
+// while others are off, have this order; a desk whose clock is behind adds one to `highest`.
 std::uint64_t next_serial(std::uint64_t highest, std::int64_t wall_ns) noexcept;
 
 std::string text_of(const UserList& list);

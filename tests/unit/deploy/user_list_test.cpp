@@ -118,6 +118,23 @@ class UserLists : public testing::Test {
     }
   }
 
+  void all_ask_all() {
+    for (std::size_t i = 0; i < kBoards; ++i) {
+      for (std::size_t j = 0; j < kBoards; ++j) {
+        ask(j, i);
+      }
+    }
+  }
+  // The highest serial of the boards whose bits are set.
+  [[nodiscard]] std::uint64_t highest_of(std::uint64_t reached) const {
+    std::uint64_t highest = 0;
+    for (std::size_t i = 0; i < kBoards; ++i) {
+      const auto known = read_user_list(boards_[i].newer_than("cell", ""));
+      highest = (reached >> i) % 2 == 1 && known ? std::max(highest, known->serial) : highest;
+    }
+    return highest;
+  }
+
   static constexpr std::size_t kBoards = 5;
   std::filesystem::path folder_;
   std::vector<std::unique_ptr<DeployKeys>> keys_;
@@ -134,14 +151,8 @@ TEST_F(UserLists, Of_all_boards_are_the_newest_one_after_each_has_asked_all_othe
       UserList list{"cell", 0,
                     "<users>\n  <user name=\"u" + std::to_string(random()) + "\" role=\"look\"/>\n</users>\n", ""};
       const auto reached = random() % (1U << kBoards);
-      for (std::size_t i = 0; i < kBoards; ++i) {
-        if ((reached >> i) % 2 == 1) {
-          const auto known = read_user_list(boards_[i].newer_than("cell", ""));
-          list.serial = std::max(list.serial, known ? known->serial : 0);
-        }
-      }
-      list.serial +=
-          1 - random() % 2 * (desks - 1);  // one that has found the boards before the other had sent its list
+      // One desk may have found the boards before the other had sent its list.
+      list.serial = highest_of(reached) + 1 - random() % 2 * (desks - 1);
       for (std::size_t i = 0; i < kBoards; ++i) {
         if ((reached >> i) % 2 == 1 && boards_[i].replace("cell", text_of(list))) {
           newest = std::max(newest, id_of(list));
@@ -151,10 +162,8 @@ TEST_F(UserLists, Of_all_boards_are_the_newest_one_after_each_has_asked_all_othe
     for (auto some = random() % 6; some > 0; --some) {
       ask(random() % kBoards, random() % kBoards);
     }
-    for (std::size_t i = 0; round % 4 == 3 && i < kBoards; ++i) {
-      for (std::size_t j = 0; j < kBoards; ++j) {
-        ask(j, i);
-      }
+    if (round % 4 == 3) {
+      all_ask_all();
     }
     for (std::size_t i = 0; round % 4 == 3 && newest.serial > 0 && i < kBoards; ++i) {
       EXPECT_EQ(boards_[i].id("cell"), text_of(newest)) << "board " << i << " in round " << round;
@@ -173,12 +182,7 @@ TEST_F(UserLists, Of_all_boards_are_the_last_one_that_a_desk_with_a_clock_has_se
     for (auto lists = random() % 4; lists > 0; --lists) {
       wall_ns += 1'000'000'000 + static_cast<std::int64_t>(random());
       const auto reached = 1U << (random() % kBoards) | (random() % 2 == 0 ? random() % (1U << kBoards) : 0U);
-      std::uint64_t highest = 0;
-      for (std::size_t i = 0; i < kBoards; ++i) {
-        const auto known = read_user_list(boards_[i].newer_than("cell", ""));
-        highest = (reached >> i) % 2 == 1 && known ? std::max(highest, known->serial) : highest;
-      }
-      const UserList list{"cell", next_serial(highest, wall_ns),
+      const UserList list{"cell", next_serial(highest_of(reached), wall_ns),
                           "<users>\n  <user name=\"u" + std::to_string(random()) + "\" role=\"look\"/>\n</users>\n",
                           ""};
       for (std::size_t i = 0; i < kBoards; ++i) {
@@ -191,10 +195,8 @@ TEST_F(UserLists, Of_all_boards_are_the_last_one_that_a_desk_with_a_clock_has_se
     for (auto some = random() % 6; some > 0; --some) {
       ask(random() % kBoards, random() % kBoards);
     }
-    for (std::size_t i = 0; round % 4 == 3 && i < kBoards; ++i) {
-      for (std::size_t j = 0; j < kBoards; ++j) {
-        ask(j, i);
-      }
+    if (round % 4 == 3) {
+      all_ask_all();
     }
     for (std::size_t i = 0; round % 4 == 3 && last.serial > 0 && i < kBoards; ++i) {
       EXPECT_EQ(boards_[i].id("cell"), text_of(last)) << "board " << i << " in round " << round;

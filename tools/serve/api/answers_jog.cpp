@@ -21,8 +21,7 @@ Reply about_hand(const Call& call, What what) {
   if (!what((*found)->name(), name)) {
     return refusal(status::kNotFound,
                    "this jog has ended: it was not renewed in time, you may no longer jog the robot, its board has "
-                   "ended or is "
-                   "locked, or another client has written ROBOT_JOG");
+                   "ended or is locked, or another client has written ROBOT_JOG");
   }
   base::Json body = about(**found);
   body["jog"] = name;
