@@ -19,7 +19,8 @@ std::vector<std::uint8_t> given_bytes(std::size_t size, Read read) {
   std::vector<std::uint8_t> zeros(size, 0x00);
   std::vector<std::uint8_t> ones(size, 0xFF);
   if (!read(std::span(zeros)) || !read(std::span(ones))) {
-    return std::vector<std::uint8_t>(size, 1);
+    std::fill(ones.begin(), ones.end(), std::uint8_t{1});
+    return ones;
   }
   std::transform(zeros.begin(), zeros.end(), ones.begin(), ones.begin(),
                  [](std::uint8_t over_zeros, std::uint8_t over_ones) { return over_zeros == over_ones ? 1 : 0; });
