@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +28,11 @@ std::string enumerate(const std::vector<std::string>& names, std::size_t most = 
 
 // Splits text at its line ends; the part after the last one is a line, too.
 std::vector<std::string> lines_of(const std::string& text);
+
+// Removes the first line from the text and returns it without its end.
+std::string_view take_line(std::string_view& text) noexcept;
+// Returns nothing if the text is more or less than the digits of a number of 64 bits.
+std::optional<std::uint64_t> whole_number(std::string_view text) noexcept;
 
 // Returns the number of characters, not bytes.
 std::size_t characters(std::string_view text) noexcept;

@@ -10,6 +10,7 @@
 #include "core/base/read_file.h"
 #include "core/keys/deploy_list.h"
 #include "core/keys/plant_parts.h"
+#include "core/keys/trust_list.h"
 
 namespace indurop::keys {
 
@@ -41,6 +42,7 @@ Done PlantKeys::make(const std::string& plant, const std::vector<std::string>& b
       done = make_participant(fresh, made.board(board), {Role::Board, plant, board}, until);
     }
   }
+  done = done ? made.share_trust() : done;
   return put_in_place(std::move(done), fresh, target);
 }
 
@@ -82,7 +84,7 @@ Done PlantKeys::add_viewer(const std::string& name, Instant until) const {
 
 Done PlantKeys::add_deployer(const std::string& name, Instant until) const {
   Done done = add({Role::Deployer, plant(), name}, until);
-  return done ? share(kDeployPublic, read_text(deployer(name) / kDeployPublic)) : done;
+  return done ? share_deploy_keys(read_text(deployer(name) / kDeployPublic)) : done;
 }
 
 Done PlantKeys::add_user(const std::string& name, Instant until) const {
@@ -99,6 +101,9 @@ Done PlantKeys::rotate(const KeyListing& deployer) const {
                     "--finish",
                     deployer.name)};
   }
+  if (Done able = can_issue(folder_); !able) {
+    return able;
+  }
   const std::string key = make_key(KeyKind::Ed25519);
   const std::string list = with_deploy_key(folder_, deployer.name, key);
   if (key.empty() || list.empty()) {
@@ -110,7 +115,7 @@ Done PlantKeys::rotate(const KeyListing& deployer) const {
         fmt::format("cannot move {} away: {}", (deployer.folder / kDeployKey).string(), error.message())};
   }
   return in_turn([&] { return write_new(deployer.folder / kDeployKey, key, kSecret); },
-                 [&] { return share(kDeployPublic, list); });
+                 [&] { return share_deploy_keys(list); });
 }
 
 Result<std::size_t, base::Problem> PlantKeys::finish_rotation() const {
@@ -119,14 +124,43 @@ Result<std::size_t, base::Problem> PlantKeys::finish_rotation() const {
   if (ended == 0) {
     return ended;
   }
-  if (Done done = share(kDeployPublic, deploy_list_text(list)); !done) {
-    return std::move(done).error();
+  const Done done =
+      in_turn([&] { return can_issue(folder_); }, [&] { return share_deploy_keys(deploy_list_text(list)); });
+  if (!done) {
+    return done.error();
   }
   std::error_code error;
   for (const KeyListing& each : this->list(instant_now())) {
     fs::remove(each.folder / kDeployKeyBefore, error);
   }
   return ended;
+}
+
+Done PlantKeys::share_deploy_keys(const std::string& list) const {
+  return in_turn([&] { return share(kDeployPublic, list); }, [&] { return share_trust(); });
+}
+
+Done PlantKeys::share_trust() const {
+  const Authority authority = read_authority(folder_);
+  const auto before = read_trust_list(read_text(folder_ / kTrust), authority.certificate);
+  const auto now = static_cast<std::uint64_t>(std::max<std::int64_t>(instant_now().time_since_epoch().count(), 1));
+  return share(kTrust, signed_trust_list({plant(), std::max(now, before ? before->serial + 1 : 0),
+                                          read_text(folder_ / kRevoked), read_text(folder_ / kDeployPublic)},
+                                         authority));
+}
+
+Result<std::string, base::Problem> PlantKeys::trust_list() const {
+  const std::string authority = read_text(folder_ / kAuthority);
+  const auto list = read_trust_list(read_text(folder_ / kTrust), authority);
+  // The files may be those of an earlier release, or of a change that was interrupted.
+  if (!list || list->revoked != read_text(folder_ / kRevoked) ||
+      list->deploy_keys != read_text(folder_ / kDeployPublic)) {
+    const Done done = in_turn([&] { return can_issue(folder_); }, [&] { return share_trust(); });
+    if (!done) {
+      return done.error();
+    }
+  }
+  return read_text(folder_ / kTrust);
 }
 
 Done PlantKeys::share(const char* file, const std::string& text) const {
@@ -187,7 +221,7 @@ Done PlantKeys::revoke(const KeyListing& whose) const {
   if (done && signs && std::erase_if(keys, [&](const DeployKey& key) { return key.deployer == whose.name; }) > 0) {
     done = share(kDeployPublic, deploy_list_text(keys));
   }
-  return done;
+  return done ? share_trust() : done;
 }
 
 fs::path PlantKeys::viewer(const std::string& name) const {
@@ -208,7 +242,7 @@ bool PlantKeys::exist() const {
 }
 
 std::string PlantKeys::unreadable() const {
-  for (const char* name : {kAuthority, kGovernance, kRevoked, kIssued, kDeployPublic}) {
+  for (const char* name : {kAuthority, kGovernance, kRevoked, kTrust, kIssued, kDeployPublic}) {
     const auto text = base::read_file(folder_ / name);
     if (!text && text.error().sys_errno != ENOENT) {
       return base::cannot_read(folder_ / name, text.error());

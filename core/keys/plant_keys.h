@@ -65,6 +65,9 @@ class PlantKeys {
   Result<void, base::Problem> rotate(const KeyListing& deployer) const;
   // Makes old keys invalid. Returns their number.
   Result<std::size_t, base::Problem> finish_rotation() const;
+  // Returns the signed list (core/keys/trust_list.h) of what is valid, for the boards; makes one if none matches the
+  // other files.
+  [[nodiscard]] Result<std::string, base::Problem> trust_list() const;
 
   [[nodiscard]] bool exist() const;
   // Returns why a file that all participants share cannot be read, and must not be written without what is in it;
@@ -83,6 +86,9 @@ class PlantKeys {
 
  private:
   Result<void, base::Problem> add(const Holder& holder, Instant until) const;
+  Result<void, base::Problem> share_deploy_keys(const std::string& list) const;
+  // Signs a list of what the files in the folder say.
+  Result<void, base::Problem> share_trust() const;
   // Copies a file that all participants have to all folders.
   Result<void, base::Problem> share(const char* file, const std::string& text) const;
   std::filesystem::path folder_;

@@ -182,6 +182,9 @@ Done make_participant(const fs::path& keys, const fs::path& folder, const Holder
       done = write_new(folder / common, read_text(keys / common), kPublic);
     }
   }
+  if (const std::string trust = read_text(keys / kTrust); done && !trust.empty()) {
+    done = write_new(folder / kTrust, trust, kPublic);
+  }
   return done ? write_new(folder / kDeployPublic, deploy_list, kPublic) : done;
 }
 

@@ -19,6 +19,7 @@ inline constexpr const char* kAuthorityKey = "ca.key";
 inline constexpr const char* kAuthority = "ca.pem";
 inline constexpr const char* kGovernance = "governance.p7s";
 inline constexpr const char* kRevoked = "revoked.pem";
+inline constexpr const char* kTrust = "trust.p7s";
 inline constexpr const char* kIssued = "issued.txt";
 inline constexpr const char* kDeployKey = "deploy.key";
 inline constexpr const char* kDeployKeyBefore = "deploy.key.before";  // until the change to a new one is finished

@@ -63,12 +63,13 @@ class Agent {
         board_commands_(options.board, self_, keys_, state, process_, recorder_, log),
         values_(options.board),
         verify_(state),
-        server_(self_,
-                [this](const std::string& name) {
-                  return offer(name, {options_.board, state_, values_, verify_, pools_, board_commands_.users()});
-                }),
+        server_(
+            self_,
+            [this](const std::string& name) {
+              return offer(name, {options_.board, state_, values_, verify_, pools_, board_commands_.users(), keys_});
+            }),
         net_(link_settings(options, self_), keys_, log),
-        others_(options.board, self_, board_commands_.users(), log),
+        others_(options.board, self_, board_commands_.users(), keys_, log),
         platform_(options.board, self_, running, platform, keys_, process_, log) {}
 
   int run(base::StopSignal& signals) {
@@ -195,7 +196,7 @@ class Agent {
         perform(transaction_.fetched(fetcher_.problem()), now);
       }
     } else {
-      others_.step_users(*net_.link(), state_.committed().plant, now);
+      others_.step_lists(*net_.link(), state_.committed().plant, now);
     }
     busy_ = server_.serve(*net_.link(), now);
     if (const auto problem = verify_.step()) {

@@ -19,7 +19,7 @@ constexpr std::size_t kMaxWhat = 400;
 // The form of these targets is their own.
 bool has_words(Action action) noexcept {
   return action != Action::KeepBox && action != Action::Record && action != Action::EndRecord &&
-         action != Action::DropRecord && action != Action::SetUsers;
+         action != Action::DropRecord && action != Action::SetUsers && action != Action::SetTrust;
 }
 
 std::string append(operate::AuditEntry entry) {
@@ -60,6 +60,8 @@ const char* word_of(Action action) noexcept {
       return "record";
     case Action::SetUsers:
       return "set users";
+    case Action::SetTrust:
+      return "set valid keys";
     case Action::ReloadModule:
       return "reload";
     case Action::RestartModule:
@@ -93,6 +95,12 @@ std::string note_command(const Command& command, const std::string& user, const 
 std::string log_users(const std::string& board, const UserList& list, const std::string& author) {
   return append({rt::wall_ns(), author.empty() ? "a deployer" : author, "another board", board,
                  word_of(Action::SetUsers), fmt::format("list {}", list.serial), "done", ""});
+}
+
+std::string log_trust(const std::string& board, const std::string& plant, const std::string& from, std::uint64_t serial,
+                      const std::string& outcome) {
+  return append({rt::wall_ns(), fmt::format("the authority of {}", plant), from, board, word_of(Action::SetTrust),
+                 fmt::format("list {}", serial), outcome, ""});
 }
 
 }  // namespace indurop::deploy

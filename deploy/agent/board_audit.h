@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "deploy/transaction/user_list.h"
@@ -22,5 +23,8 @@ std::string note_command(const Command& command, const std::string& user, const 
 // Notes a list of users that another board had. `author`: the verified name of the one who sent it to the plant; empty:
 // a deployer. Returns the same.
 std::string log_users(const std::string& board, const UserList& list, const std::string& author);
+// Notes a list of valid keys that is taken from a host or board. `outcome`: as above. Returns the same.
+std::string log_trust(const std::string& board, const std::string& plant, const std::string& from, std::uint64_t serial,
+                      const std::string& outcome);
 
 }  // namespace indurop::deploy

@@ -12,6 +12,7 @@
 #include "deploy/agent/board_alarms.h"
 #include "deploy/agent/board_audit.h"
 #include "deploy/agent/running_node.h"
+#include "deploy/agent/trust_lists.h"
 #include "store/operate/journal.h"
 #include "store/vars/box_request.h"
 
@@ -55,8 +56,10 @@ BoardCommands::BoardCommands(std::string board, std::uint64_t self, const Deploy
     : board_(std::move(board)),
       forces_(board_),
       self_(self),
+      keys_(keys),
       users_(board_, keys),
       process_(process),
+      node_(process),
       recorder_(recorder),
       reload_(state, self, board_),
       log_(log) {}
@@ -139,8 +142,34 @@ void BoardCommands::receive(CommandLink& link, const Command& command, const std
 // A name in the command counts only if no certificate has another one.
 CommandReply BoardCommands::begin(Command command, const std::string& plant, const std::string& busy,
                                   rt::MonoTime now) {
+  if (command.action == Action::SetTrust) {
+    return take_trust(command, plant, now);
+  }
   const BoardUsers::Verdict verdict = users_.judge(command, plant);
   return carry_out(signed_by(std::move(command), verdict.user), plant, verdict, busy, now);
+}
+
+CommandReply BoardCommands::refuse(const Command& command, const std::string& user, const std::string& why,
+                                   rt::MonoTime now) {
+  if (const std::uint64_t count = refusals_.count(now.time_since_epoch().count()); count > 0) {
+    const std::string noted = count > 1 ? fmt::format("{} ({} refusals)", why, count) : why;
+    log_.warning("a command from {} was refused: {}", command.host, noted);
+    (void)note_command(command, user, noted);  // nothing is changed, so a missing entry hides nothing
+  }
+  return reply(command, Outcome::Refused, why);
+}
+
+// Whatever the board is doing: what is revoked must not be valid any longer.
+CommandReply BoardCommands::take_trust(const Command& command, const std::string& plant, rt::MonoTime now) {
+  const auto taken = take_trust_list(board_, keys_, plant, command.host, command.target);
+  if (!taken) {
+    return refuse(command, "unknown", taken.error().text, now);
+  }
+  if (taken->empty()) {
+    return reply(command, Outcome::Unchanged);
+  }
+  log_.info("command from {}: {}", command.host, *taken);
+  return reply(command, Outcome::Done);
 }
 
 CommandReply BoardCommands::carry_out(const Command& command, const std::string& plant,
@@ -158,12 +187,7 @@ CommandReply BoardCommands::carry_out(const Command& command, const std::string&
                                    : busy;
   }
   if (!why.empty()) {
-    if (const std::uint64_t count = refusals_.count(now.time_since_epoch().count()); count > 0) {
-      const std::string noted = count > 1 ? fmt::format("{} ({} refusals)", why, count) : why;
-      log_.warning("a command from {} was refused: {}", command.host, noted);
-      (void)note_command(command, verdict.user, noted);  // nothing is changed, so a missing entry hides nothing
-    }
-    return reply(command, Outcome::Refused, why);
+    return refuse(command, verdict.user, why, now);
   }
   if (const std::string unlogged = is_recording(command.action) ? "" : note_command(command, verdict.user, "begun");
       !unlogged.empty()) {
@@ -320,19 +344,8 @@ std::optional<CommandReply> BoardCommands::poll_reload(DeployLink& files, rt::Mo
 }
 
 CommandReply BoardCommands::begin_node(const Command& command, const WriteOrder& words) {
-  if (command.action == Action::StopNode && !process_.held().empty() && !process_.has_node()) {
-    return reply(command, Outcome::Unchanged);
-  }
-  if (command.action == Action::StartNode && process_.condition() == NodeCondition::Running) {
-    return reply(command, Outcome::Unchanged);
-  }
-  ended_ = command.action == Action::StartNode;
-  if (ended_) {
-    process_.release();
-  } else {
-    process_.hold("stopped by command from " + by(command, words));
-  }
-  return reply(command, Outcome::UnderWay);
+  const NodeCommand::Answer answer = node_.begin(command.action, by(command, words));
+  return reply(command, answer.outcome, answer.text);
 }
 
 std::optional<CommandReply> BoardCommands::poll(DeployLink& files, rt::MonoTime now) {
@@ -373,23 +386,8 @@ std::optional<CommandReply> BoardCommands::poll_module() {
 }
 
 std::optional<CommandReply> BoardCommands::poll_node() {
-  if (!ended_) {
-    if (process_.has_node()) {
-      return std::nullopt;
-    }
-    if (command_->action == Action::StopNode) {
-      return reply(*command_, Outcome::Done);
-    }
-    ended_ = true;
-    process_.release();
-    return std::nullopt;
-  }
-  if (process_.condition() == NodeCondition::Running) {
-    return reply(*command_, Outcome::Done);
-  }
-  const bool failed =
-      process_.condition() == NodeCondition::Failed || process_.condition() == NodeCondition::Restarting;
-  return failed ? std::optional(reply(*command_, Outcome::Failed, process_.reason())) : std::nullopt;
+  const auto answer = node_.poll(command_->action);
+  return answer ? std::optional(reply(*command_, answer->outcome, answer->text)) : std::nullopt;
 }
 
 }  // namespace indurop::deploy

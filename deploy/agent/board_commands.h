@@ -17,6 +17,7 @@
 #include "deploy/agent/board_reload.h"
 #include "deploy/agent/board_users.h"
 #include "deploy/agent/deploy_keys.h"
+#include "deploy/agent/node_command.h"
 #include "deploy/link/command_link.h"
 #include "deploy/transaction/write_words.h"
 #include "scheduler/module_command.h"
@@ -46,6 +47,8 @@ class BoardCommands {
   CommandReply begin(Command command, const std::string& plant, const std::string& busy, rt::MonoTime now);
   CommandReply carry_out(const Command& command, const std::string& plant, const BoardUsers::Verdict& verdict,
                          const std::string& busy, rt::MonoTime now);
+  CommandReply refuse(const Command& command, const std::string& user, const std::string& why, rt::MonoTime now);
+  CommandReply take_trust(const Command& command, const std::string& plant, rt::MonoTime now);
   CommandReply begin_module(const Command& command, const WriteOrder& words, rt::MonoTime now);
   CommandReply begin_reload(const Command& command, const WriteOrder& words, rt::MonoTime now);
   CommandReply begin_node(const Command& command, const WriteOrder& words);
@@ -68,8 +71,10 @@ class BoardCommands {
   std::string board_;
   BoardForces forces_;
   std::uint64_t self_;
+  const DeployKeys& keys_;
   BoardUsers users_;
   BoardProcess& process_;
+  NodeCommand node_;
   BoardRecorder& recorder_;
   BoardReload reload_;
   const base::Log& log_;
@@ -82,7 +87,6 @@ class BoardCommands {
   std::optional<vars::RunFile> run_;
   scheduler::ModuleRecord* module_ = nullptr;
   scheduler::CommandTicket ticket_ = 0;
-  bool ended_ = false;  // the first half of a node restart is done
 };
 
 }  // namespace indurop::deploy

@@ -58,7 +58,9 @@ std::string BoardLink::join() {
                          own_.plant, check.problem, settings_.network.board);
     }
     note = note.empty() ? check.exposed : note;
-    settings_.network.security = security_of(keys::ParticipantKeys(own_.folder));
+    keys::ParticipantKeys own(own_.folder);
+    own.revoked = keys_.trust(own_.plant).current().revoked;
+    settings_.network.security = security_of(own);
   }
   auto opened = DeployLink::open(settings_);
   if (!opened) {

@@ -87,6 +87,7 @@ UserRole needed_role(Action action) noexcept {
     case Action::SetLock:
       return UserRole::Program;
     case Action::SetUsers:
+    case Action::SetTrust:      // signed by the authority instead
     case Action::ReloadModule:  // beyond_role() refuses it to all users
       break;
   }
@@ -103,9 +104,6 @@ Result<std::string, Problem> signer_of(const std::string& text, const UserSignat
   const std::string& name = facts->common_name;
   if (keys::plant_role(*facts) != keys::Role::User) {
     return Problem{fmt::format("{} has no certificate of a user; indurop keys add --user NAME makes one", name)};
-  }
-  if (keys::is_revoked(signature.certificate, authority.revoked)) {
-    return Problem{fmt::format("the keys of {} are revoked", name)};
   }
   if (now < facts->validity.from || now > facts->validity.until) {
     return Problem{fmt::format("the certificate of {} is not valid now", name)};
@@ -173,11 +171,13 @@ BoardUsers::Verdict BoardUsers::signer(const std::string& plant, const std::stri
   if (!of_user || own.folder.empty()) {
     return {{}, keys_.refusal(plant, text, signature)};
   }
-  const keys::ParticipantKeys files(own.folder);
-  const auto name = signer_of(text, *of_user, {own.plant, text_of_file(files.authority), text_of_file(files.revoked)},
-                              keys::instant_now());
+  const std::string authority = text_of_file(keys::ParticipantKeys(own.folder).authority);
+  const auto name = signer_of(text, *of_user, {own.plant, authority}, keys::instant_now());
   if (!name) {
     return {{}, name.error().text};
+  }
+  if (keys_.trust(own.plant).revokes(of_user->certificate)) {
+    return {{}, fmt::format("the keys of {} are revoked", *name)};
   }
   return {*name, own.plant == plant ? "" : fmt::format("this board has keys, but none of plant {}", plant)};
 }

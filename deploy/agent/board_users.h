@@ -24,13 +24,13 @@ namespace indurop::deploy {
 // Returns the role that a command needs.
 config::UserRole needed_role(Action action) noexcept;
 
-// The keys by which the certificates of users are verified, as texts.
+// The authority of a plant, by which the certificates of users are verified.
 struct Authority {
   std::string plant;
   std::string certificate;
-  std::string revoked;
 };
-// Returns the user who signed the text, or why the signature does not count.
+// Returns the user who signed the text, or why the signature does not count. That the certificate is not revoked is
+// left to the caller.
 Result<std::string, base::Problem> signer_of(const std::string& text, const UserSignature& signature,
                                              const Authority& authority, keys::Instant now);
 

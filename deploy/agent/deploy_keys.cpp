@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/read_file.h"
 #include "core/base/text.h"
 #include "core/keys/deploy_list.h"
 #include "core/keys/plant_keys.h"
+#include "store/vars/retain.h"
 #include "store/vars/shm_file.h"
 
 namespace indurop::deploy {
@@ -69,12 +69,16 @@ OwnKeys DeployKeys::own(const std::string& plant) const {
   OwnKeys own{runs ? plant : plants.front(), {}, {}, {}};
   own.folder = folder_ / own.plant / board_;
   const keys::ParticipantKeys keys(own.folder);
-  for (const fs::path& file :
-       {keys.authority, keys.certificate, keys.key, keys.governance, keys.permissions, keys.revoked}) {
+  for (const fs::path& file : {keys.authority, keys.certificate, keys.key, keys.governance, keys.permissions,
+                               keys.revoked, trust(own.plant).file()}) {
     std::error_code ignored;
     own.state += fmt::format("{} ", fs::last_write_time(file, ignored).time_since_epoch().count());
   }
   return own;
+}
+
+keys::ReceivedTrust DeployKeys::trust(const std::string& plant) const {
+  return {keys::ParticipantKeys(folder_ / plant / board_), keys::received_trust(vars::state_directory(board_), plant)};
 }
 
 std::string DeployKeys::refusal(const std::string& plant, const std::string& text, const std::string& signature) const {
@@ -88,9 +92,7 @@ std::string DeployKeys::refusal(const std::string& plant, const std::string& tex
   if (!vars::valid_node_name(plant)) {
     return "it names no plant";
   }
-  const fs::path file = keys::ParticipantKeys(folder_ / plant / board_).deploy_key;
-  auto content = base::read_file(file);
-  const std::string key = content ? std::move(*content) : std::string{};
+  const std::string key = trust(plant).current().deploy_keys;
   if (key.empty()) {
     return fmt::format("this board has keys, but none of plant {}", plant);
   }

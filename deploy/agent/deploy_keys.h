@@ -3,9 +3,15 @@
 
 #pragma once
 
+#include <indurop/result.h>
+
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <system_error>
+
+#include "core/base/problem.h"
+#include "core/keys/trust_list.h"
 
 namespace indurop::deploy {
 
@@ -28,6 +34,10 @@ class DeployKeys {
   // runs.
   [[nodiscard]] std::string refusal(const std::string& plant, const std::string& text,
                                     const std::string& signature) const;
+
+  // Returns which keys of the plant are valid for this board: the list that it has received, if it is later than the
+  // one that was copied to it with its keys.
+  [[nodiscard]] keys::ReceivedTrust trust(const std::string& plant) const;
 
   // Returns the board's keys in `plant`, which it runs, else in the only plant of which it has keys.
   [[nodiscard]] OwnKeys own(const std::string& plant) const;

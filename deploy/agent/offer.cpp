@@ -6,18 +6,23 @@
 #include "deploy/agent/boxes_text.h"
 #include "deploy/agent/mirror_text.h"
 #include "deploy/agent/run_image.h"
+#include "deploy/agent/trust_lists.h"
 #include "deploy/words/deployment_words.h"
 
 namespace indurop::deploy {
 
 std::optional<BlobServer::Blob> offer(const std::string& name, const Offered& from) {
-  const auto& [board, state, values, verify, pools, users] = from;
+  const auto& [board, state, values, verify, pools, users, keys] = from;
   const auto text = [](std::string what) { return BlobServer::Blob{{}, std::move(what)}; };
   if (name == kHistoryBlob) {
     return text(state.history_text());
   }
   if (name.starts_with(kUsersBlob)) {
     std::string list = users.newer_than(state.committed().plant, name.substr(kUsersBlob.size()));
+    return list.empty() ? std::nullopt : std::optional(text(std::move(list)));
+  }
+  if (name.starts_with(kTrustBlob)) {
+    std::string list = trust_list_after(keys, state.committed().plant, name.substr(kTrustBlob.size()));
     return list.empty() ? std::nullopt : std::optional(text(std::move(list)));
   }
   if (name == kMirrorBlob) {

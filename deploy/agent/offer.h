@@ -11,6 +11,7 @@
 #include "deploy/agent/board_users.h"
 #include "deploy/agent/board_values.h"
 #include "deploy/agent/board_verify.h"
+#include "deploy/agent/deploy_keys.h"
 #include "deploy/link/blob_server.h"
 
 namespace indurop::deploy {
@@ -23,6 +24,7 @@ struct Offered {
   BoardVerify& verify;
   const BoardPools& pools;
   const BoardUsers& users;
+  const DeployKeys& keys;
 };
 // Returns nothing if there is no blob of that name.
 std::optional<BlobServer::Blob> offer(const std::string& name, const Offered& from);

@@ -2,13 +2,31 @@
 #include "deploy/agent/other_boards.h"
 
 #include "core/schema/topic_name.h"
+#include "deploy/agent/trust_lists.h"
 
 namespace indurop::deploy {
 namespace {
 
 constexpr std::size_t kMaxWarnings = 32;  // beyond this a participant may be inventing them
 
+PassedList list_of_users(const BoardUsers& users) {
+  return {"a list of users", std::string(kUsersBlob), [&users](const std::string& plant) { return users.id(plant); },
+          [&users](const std::string& plant, const std::string& text) { return users.take(plant, text); }};
+}
+
+PassedList list_of_keys(const std::string& board, const DeployKeys& keys) {
+  return {"a list of keys", std::string(kTrustBlob),
+          [&keys](const std::string& plant) { return trust_id(keys, plant); },
+          [board, &keys](const std::string& plant, const std::string& text) {
+            return take_trust_list(board, keys, plant, "another board", text);
+          }};
+}
+
 }  // namespace
+
+OtherBoards::OtherBoards(const std::string& board, std::uint64_t self, const BoardUsers& users, const DeployKeys& keys,
+                         const base::Log& log)
+    : board_(board), log_(log), lists_(self, {list_of_users(users), list_of_keys(board, keys)}, log) {}
 
 void OtherBoards::warn(const std::string& about) {
   if (warned_.size() < kMaxWarnings && warned_.insert(about).second) {
@@ -40,8 +58,8 @@ std::vector<std::string> OtherBoards::listen(DeployLink& link, const std::string
   return boxes;
 }
 
-void OtherBoards::step_users(DeployLink& link, const std::string& plant, rt::MonoTime now) {
-  users_.step(link, agents_of(plant), plant, now);
+void OtherBoards::step_lists(DeployLink& link, const std::string& plant, rt::MonoTime now) {
+  lists_.step(link, agents_of(plant), plant, now);
 }
 
 std::vector<std::uint64_t> OtherBoards::agents_of(const std::string& plant) const {

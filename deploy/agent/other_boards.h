@@ -14,7 +14,8 @@
 #include "core/rt/clock.h"
 #include "deploy/agent/board_users.h"
 #include "deploy/agent/box_watch.h"
-#include "deploy/agent/users_from_others.h"
+#include "deploy/agent/deploy_keys.h"
+#include "deploy/agent/lists_from_others.h"
 #include "deploy/link/deploy_link.h"
 #include "deploy/words/deployment_words.h"
 
@@ -22,9 +23,9 @@ namespace indurop::deploy {
 
 class OtherBoards {
  public:
-  // `self`: this agent; `users`: of this board.
-  OtherBoards(std::string board, std::uint64_t self, const BoardUsers& users, const base::Log& log)
-      : board_(std::move(board)), log_(log), users_(self, users, log) {}
+  // `self`: this agent; `users` and `keys`: of this board.
+  OtherBoards(const std::string& board, std::uint64_t self, const BoardUsers& users, const DeployKeys& keys,
+              const base::Log& log);
 
   // Processes what has arrived. Returns why boards of `plant` keep their black boxes, if any does.
   std::vector<std::string> listen(DeployLink& link, const std::string& plant);
@@ -34,8 +35,9 @@ class OtherBoards {
   }
   // Returns the sessions that may have files of a deployment of the plant: `first`, then the agents of its boards.
   [[nodiscard]] std::vector<std::uint64_t> with_files_of(const std::string& plant, std::uint64_t first) const;
-  // Takes a newer list of users from them. Receives the pieces of files that arrive: not while a Fetcher is active.
-  void step_users(DeployLink& link, const std::string& plant, rt::MonoTime now);
+  // Takes newer lists of users and of valid keys from them. Receives the pieces of files that arrive: not while a
+  // Fetcher is active.
+  void step_lists(DeployLink& link, const std::string& plant, rt::MonoTime now);
   void clear() { boards_.clear(); }
 
  private:
@@ -48,7 +50,7 @@ class OtherBoards {
   std::map<std::pair<std::string, std::uint64_t>, BoardReport> boards_;
   std::set<std::string> warned_;
   BoxWatch box_watch_;
-  UsersFromOthers users_;
+  ListsFromOthers lists_;
 };
 
 }  // namespace indurop::deploy

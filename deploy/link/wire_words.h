@@ -222,7 +222,7 @@ constexpr NodeCondition last_of(NodeCondition /*any*/) noexcept {
   return NodeCondition::Stopped;
 }
 constexpr Action last_of(Action /*any*/) noexcept {
-  return Action::ReloadModule;
+  return Action::SetTrust;
 }
 constexpr Outcome last_of(Outcome /*any*/) noexcept {
   return Outcome::Refused;

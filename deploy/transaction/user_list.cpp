@@ -4,28 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
+#include "core/base/text.h"
 #include "core/keys/digest.h"
 
 namespace indurop::deploy {
 namespace {
 
 constexpr std::string_view kMark = "indurop users\n";
-
-// Removes one line from the text and returns it.
-std::string_view line_of(std::string_view& text) {
-  const std::size_t end = std::min(text.find('\n'), text.size());
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  return line;
-}
-
-std::optional<std::uint64_t> number_of(std::string_view text) {
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
-}
 
 }  // namespace
 
@@ -45,9 +31,9 @@ std::optional<UserList> read_user_list(std::string_view text) {
   }
   text.remove_prefix(kMark.size());
   UserList list;
-  list.plant = line_of(text);
-  const auto serial = number_of(line_of(text));
-  const auto size = number_of(line_of(text));
+  list.plant = base::take_line(text);
+  const auto serial = base::whole_number(base::take_line(text));
+  const auto size = base::whole_number(base::take_line(text));
   if (!serial || !size || *size > text.size()) {
     return std::nullopt;
   }
@@ -71,7 +57,7 @@ std::string text_of(const UserListId& id) {
 
 std::optional<UserListId> read_user_list_id(std::string_view text) {
   const std::size_t dash = std::min(text.find('-'), text.size());
-  const auto serial = number_of(text.substr(0, dash));
+  const auto serial = base::whole_number(text.substr(0, dash));
   const std::string_view digest = text.substr(std::min(dash + 1, text.size()));
   return serial && keys::is_digest(digest) ? std::optional(UserListId{*serial, std::string(digest)}) : std::nullopt;
 }

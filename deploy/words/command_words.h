@@ -41,6 +41,7 @@ enum class Action : std::uint8_t {
   // operate::RemoteReload; the file is fetched from the commander, a deployer. The answer is that of an
   // operate::RemoteReloadReply.
   ReloadModule,
+  SetTrust,  // target: a list of valid keys (core/keys/trust_list.h), signed by the plant's authority
 };
 
 struct Command {

@@ -168,6 +168,9 @@ inline constexpr const char* kHistoryBlob = "history";
 // Blob name: the list of users of the plant (transaction/user_list.h), if the board has a newer one than that of the id
 // after this prefix; without an id the one it has.
 inline constexpr std::string_view kUsersBlob = "users/";
+// Blob name: the list of valid keys (core/keys/trust_list.h), if the board has a later one than that of the serial
+// after this prefix; without a serial the one it has.
+inline constexpr std::string_view kTrustBlob = "trust/";
 // Blob name: the variables that the board's node currently reads from other boards, and their age.
 inline constexpr const char* kMirrorBlob = "mirror";
 // Blob name: the current run block of the board's node (node_texts.h), for remote tools.

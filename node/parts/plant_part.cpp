@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "core/keys/participant_keys.h"
+#include "core/keys/trust_list.h"
+#include "store/vars/retain.h"
 
 namespace indurop::node {
 
@@ -12,7 +14,9 @@ dds::Security board_security(const config::Plant& plant, const std::string& boar
   if (folder.empty()) {
     return {};
   }
-  const keys::ParticipantKeys keys(folder);
+  keys::ParticipantKeys keys(folder);
+  keys.revoked =
+      keys::ReceivedTrust(keys, keys::received_trust(vars::state_directory(board), plant.name)).current().revoked;
   return {keys.authority.string(),  keys.certificate.string(), keys.key.string(),
           keys.governance.string(), keys.permissions.string(), keys.revoked.string()};
 }

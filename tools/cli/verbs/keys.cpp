@@ -115,6 +115,10 @@ int renew(Context& context, const KeysRequest& request) {
   return whose.empty() ? kFailed : kOk;
 }
 
+void note_next(Context& context, const keys::PlantKeys& keys) {
+  context.out.note(fmt::format("next: indurop keys send --dir {}, so that the boards know it", keys.folder().string()));
+}
+
 int revoke(Context& context, const KeysRequest& request) {
   const keys::PlantKeys keys = keys_of(request);
   if (!usable(context, keys)) {
@@ -126,8 +130,10 @@ int revoke(Context& context, const KeysRequest& request) {
       context.out.error(done.error().text);
       return kFailed;
     }
-    context.out.line(fmt::format("{} is revoked: copy revoked.pem{} to every board, and restart its node", each.name,
-                                 each.role == keys::Role::Deployer ? " and deploy.pub" : ""));
+    context.out.line(fmt::format("{} is revoked", each.name));
+  }
+  if (!whose.empty()) {
+    note_next(context, keys);
   }
   return whose.empty() ? kFailed : kOk;
 }
@@ -142,9 +148,9 @@ int finish_rotation(Context& context, const keys::PlantKeys& keys) {
     context.out.note("there is no former key: nothing was changed");
     return kOk;
   }
-  context.out.line(fmt::format("{} no more: copy {}/deploy.pub to every board",
-                               *ended == 1 ? "1 former key counts" : fmt::format("{} former keys count", *ended),
-                               keys.folder().string()));
+  context.out.line(
+      fmt::format("{} invalid now", *ended == 1 ? "1 former key is" : fmt::format("{} former keys are", *ended)));
+  note_next(context, keys);
   return kOk;
 }
 
@@ -173,10 +179,10 @@ int rotate(Context& context, const KeysRequest& request) {
       context.out.error(done.error().text);
       return kFailed;
     }
-    context.out.line(fmt::format("{} has a new key for deployments; its former one counts, too", each.name));
+    context.out.line(fmt::format("{} has a new key for deployments; its former one is valid, too", each.name));
     context.out.note(fmt::format(
-        "next: copy {0}/deploy.pub to every board, then {1}/deploy.key to where {2} deploys; deploy once with it; then "
-        "indurop keys rotate --finish",
+        "next: indurop keys send --dir {0}; then copy {1}/deploy.key to where {2} deploys, and deploy once with it; "
+        "then indurop keys rotate --finish",
         keys.folder().string(), each.folder.string(), each.name));
   }
   return whose.empty() ? kFailed : kOk;
@@ -227,7 +233,11 @@ Action declare_keys(base::Options& app, Context& context) {
            &rotate);
   made->add("names", "NAME", request->boards, "Names of the deployers (default: deployer)");
   made->flag("--finish", request->finish,
-             "Invalidate the previous keys; all boards must already have the new deploy.pub");
+             "Invalidate the previous keys; all boards must already know the new ones (indurop keys send)");
+  made =
+      verb("send", "Tell the boards of the plant which of its keys are valid, after add --deployer, revoke and rotate",
+           &send_keys);
+  deploy::add_link_options(*made, request->link);
   made = verb("server", "Create or renew the TLS certificate of an indurop serve, so that browsers trust it",
               &make_server);
   made->add("name", "NAME", request->boards, "Name of the server; its files go to servers/NAME").required();
@@ -250,6 +260,7 @@ const Verb kKeysVerb{
     "  indurop keys list --dir keys\n"
     "  indurop keys add --tool panel --read 'cell::*' --write cell::target\n"
     "  indurop keys add --deployer anna\n"
+    "  indurop keys send\n"
     "  indurop keys server desk --host 192.168.1.5 cell.local\n",
     &declare_keys};
 

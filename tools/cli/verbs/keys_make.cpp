@@ -177,10 +177,10 @@ int add_deployer(Context& context, const KeysRequest& request, const keys::Plant
     return kFailed;
   }
   context.out.line(fmt::format("made {}", keys.deployer(request.deployer).string()));
-  context.out.note(
-      fmt::format("copy {}/deploy.pub to every board first (no restart is needed), then the folder to the machine that "
-                  "deploys, for its user alone",
-                  keys.folder().string()));
+  context.out.note(fmt::format(
+      "next: indurop keys send --dir {}, so that the boards know it; then copy the new folder to the machine "
+      "that deploys, for its user alone",
+      keys.folder().string()));
   return kOk;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/keys/plant_keys.h"
+#include "deploy/link/deploy_link.h"
 #include "tools/cli/command/verb.h"
 
 namespace indurop::tools {
@@ -29,8 +30,9 @@ struct KeysRequest {
   std::vector<std::string> hosts;  // for server
   int days = kDefaultDays;
   int server_days = kServerDays;
-  bool opcua = false;   // for server
-  bool finish = false;  // for rotate
+  bool opcua = false;         // for server
+  bool finish = false;        // for rotate
+  deploy::LinkSettings link;  // for send
 };
 
 keys::Instant until(const KeysRequest& request);
@@ -41,6 +43,7 @@ bool usable(Context& context, const keys::PlantKeys& keys);
 
 int init_keys(Context& context, const KeysRequest& request);
 int add_keys(Context& context, const KeysRequest& request);
+int send_keys(Context& context, const KeysRequest& request);
 int make_server(Context& context, const KeysRequest& request);
 
 }  // namespace indurop::tools

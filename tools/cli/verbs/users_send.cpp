@@ -8,17 +8,13 @@
 #include "config/users_reader.h"
 #include "core/rt/clock.h"
 #include "deploy/transaction/user_list.h"
-#include "tools/client/board/board_commander.h"
-#include "tools/client/board/board_roster.h"
-#include "tools/client/board/board_table.h"
+#include "tools/cli/plant/send_list.h"
 #include "tools/client/board/board_texts.h"
 #include "tools/client/text/units.h"
 #include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
 namespace {
-
-constexpr std::int64_t kSendNs = 5'000'000'000;  // to discover boards, and for the answer of each
 
 // Returns a list with these users that is newer than those of the boards.
 deploy::UserList next_list(const std::string& plant, std::vector<config::PlantUser> users, deploy::DeployLink& link,
@@ -56,31 +52,11 @@ int send_users(Context& context, const std::vector<config::PlantUser>& users, Se
   if (!plant) {
     return report(context.out, with_keys_hint(plant.error(), request.link));
   }
-  int code = kOk;
   deploy::UserList list = next_list(*plant, users, *link, request.link.self, roster);
   list.signature = commander->signature_of(deploy::signed_text(list));
-  for (const auto& [key, entry] : roster.all()) {
-    if (entry.report.plant != *plant) {
-      continue;
-    }
-    const auto answered = commander->send(*link, request.link.self, entry.report, deploy::Action::SetUsers,
-                                          deploy::text_of(list), kSendNs);
-    const bool done = answered && answered->reply.outcome == deploy::Outcome::Done;
-    if (!done) {
-      context.out.error(fmt::format("{} was not changed: {}", key.first,
-                                    printable(answered ? answered->reply.text : answered.error().text)));
-      code = answered ? kFailed : answered.error().code;
-    } else {
-      context.out.line(fmt::format("{} has {} now", key.first, counted(users.size(), "user")));
-    }
-  }
-  for (const std::string& board : missing_boards(roster)) {
-    context.out.error(fmt::format(
-        "{} was not heard: it keeps the list it has until it is there, and then takes this one from another board",
-        board));
-    code = kUnreachable;
-  }
-  return code;
+  return send_list(context, *link, request.link.self, *commander, roster, *plant, false,
+                   {deploy::Action::SetUsers, deploy::text_of(list),
+                    fmt::format("has {} now", counted(users.size(), "user")), "has this list already"});
 }
 
 }  // namespace indurop::tools

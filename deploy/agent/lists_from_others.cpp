@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "deploy/agent/users_from_others.h"
+#include "deploy/agent/lists_from_others.h"
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
-
-#include "deploy/words/deployment_words.h"
 
 namespace indurop::deploy {
 namespace {
@@ -15,7 +12,7 @@ constexpr std::chrono::seconds kRound{60};
 
 }  // namespace
 
-void UsersFromOthers::step(DeployLink& link, const std::vector<std::uint64_t>& agents, const std::string& plant,
+void ListsFromOthers::step(DeployLink& link, const std::vector<std::uint64_t>& agents, const std::string& plant,
                            rt::MonoTime now) {
   for (const BlobChunk& chunk : link.take_chunks()) {
     if (chunk.source == source_ && chunk.blob == blob_) {
@@ -27,27 +24,34 @@ void UsersFromOthers::step(DeployLink& link, const std::vector<std::uint64_t>& a
   }
 }
 
-void UsersFromOthers::ask_next(DeployLink& link, const std::vector<std::uint64_t>& agents, const std::string& plant,
+void ListsFromOthers::ask_next(DeployLink& link, const std::vector<std::uint64_t>& agents, const std::string& plant,
                                rt::MonoTime now) {
   source_ = 0;
   if (now - round_ > kRound) {
     asked_.clear();
     round_ = now;
   }
-  const auto next =
-      std::find_if(agents.begin(), agents.end(), [&](std::uint64_t agent) { return !asked_.contains(agent); });
-  if (next == agents.end()) {
-    return;
+  for (const std::uint64_t agent : agents) {
+    for (std::size_t list = 0; list < lists_.size(); ++list) {
+      if (asked_.insert({agent, list}).second) {
+        ask(link, agent, list, plant, now);
+        return;
+      }
+    }
   }
-  source_ = *next;
-  asked_.insert(source_);
+}
+
+void ListsFromOthers::ask(DeployLink& link, std::uint64_t agent, std::size_t list, const std::string& plant,
+                          rt::MonoTime now) {
+  source_ = agent;
+  wanted_ = list;
   until_ = now + kPatience;
-  blob_ = std::string(kUsersBlob) + users_.id(plant);
+  blob_ = lists_[list].blob + lists_[list].id(plant);
   text_ = TextPieces(kLargest);
   link.request({self_, source_, blob_, 0, kLargest, true});
 }
 
-void UsersFromOthers::take(const BlobChunk& chunk, const std::string& plant) {
+void ListsFromOthers::take(const BlobChunk& chunk, const std::string& plant) {
   if (!text_.take(chunk) || !text_.done()) {
     return;
   }
@@ -55,12 +59,12 @@ void UsersFromOthers::take(const BlobChunk& chunk, const std::string& plant) {
   if (!text_.whole()) {
     return;  // it has no newer one
   }
-  const auto taken = users_.take(plant, text_.text());
+  const auto taken = lists_[wanted_].take(plant, text_.text());
   const std::string problem = taken ? std::string() : taken.error().text;
-  if (taken) {
+  if (taken && !taken->empty()) {
     log_.info("{}", *taken);
-  } else if (problem != last_problem_) {
-    log_.warning("a list of users that another board has was not taken: {}", problem);
+  } else if (!taken && problem != last_problem_) {
+    log_.warning("{} that another board has was not taken: {}", lists_[wanted_].what, problem);
   }
   last_problem_ = problem;
 }

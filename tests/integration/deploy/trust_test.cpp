@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys that are replaced or revoked while a plant runs, without a file that is copied to a board: by `indurop keys
+// send`, and from board to board.
+
+#include "agents_fixture.h"
+
+namespace indurop::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Trust : public AgentsTest {
+ protected:
+  void SetUp() override {
+    first_ = manifest("v1.xml", {{"a", "steady"}, {"b", "steady"}});
+    second_ = manifest("v2.xml", {{"a", "other"}, {"b", "steady"}});
+    bring_keys(first_, {"a", "b"});
+    ASSERT_EQ(keys({"add", "--user", "anna"}).code, 0);
+    start_agent("a");
+    start_agent("b");
+    // The keys of a deployer as one had them who does not follow what happens later.
+    std::filesystem::copy(path("keys/deployer"), path("stolen"), std::filesystem::copy_options::recursive);
+    speak_with_keys(path("keys"));
+    const Outcome done = deploy(first_);
+    ASSERT_EQ(done.code, 0) << done.err;
+  }
+  Outcome keys(std::vector<std::string> words) {
+    words.insert(words.begin(), "keys");
+    words.insert(words.end(), {"--dir", path("keys")});
+    return indurop_here(words);
+  }
+  Outcome send() { return indurop({"keys", "send", "--dir", path("keys"), "--keys", path("keys")}); }
+  Outcome deploy_with(const std::string& keys, const std::string& file) {
+    return indurop({"deploy", file, "--health", "500ms", "--timeout", "10s", "--keys", keys, "-o", "json"});
+  }
+  Json audit() {
+    return indurop_here({"audit", "-o", "json", "--file", path("state/serve/audit.jsonl")}).json()["audit"];
+  }
+  const std::string& first() const { return first_; }
+  const std::string& second() const { return second_; }
+
+ private:
+  std::string first_;
+  std::string second_;
+};
+
+TEST_F(Trust, A_deployer_is_replaced_over_the_network) {
+  ASSERT_EQ(keys({"add", "--deployer", "bob"}).code, 0);
+  ASSERT_EQ(keys({"revoke", "deployer"}).code, 0);
+  EXPECT_NE(deploy_with(path("keys/deployers/bob"), second()).code, 0) << "the boards do not know bob yet";
+  const Outcome sent = send();
+  ASSERT_EQ(sent.code, 0) << sent.err;
+  for (const char* name : {"a", "b"}) {
+    EXPECT_THAT(sent.out, HasSubstr(board(name) + " knows now which keys are valid"));
+  }
+  ASSERT_TRUE(wait_until([&] { return deploy_with(path("keys/deployers/bob"), second()).code == 0; }))
+      << "agents join the network again after they got the list";
+  EXPECT_NE(deploy_with(path("stolen"), first()).code, 0);
+  EXPECT_NE(indurop({"stop", "@" + board("a"), "--keys", path("stolen")}).code, 0);
+  const Outcome again = send();
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("knew already which keys are valid"));
+  const Json log = audit();
+  EXPECT_TRUE(std::any_of(log.begin(), log.end(), [](const Json& entry) {
+    return entry["action"] == "set valid keys" && entry["outcome"] == "done";
+  })) << log;
+}
+
+TEST_F(Trust, A_board_that_was_off_learns_from_another_one_who_is_revoked) {
+  stop_agent("b", SIGKILL);
+  ASSERT_EQ(keys({"add", "--deployer", "bob"}).code, 0);
+  ASSERT_EQ(keys({"revoke", "deployer"}).code, 0);
+  const Outcome sent = send();
+  EXPECT_EQ(sent.code, 6) << sent.out;
+  EXPECT_THAT(sent.err, HasSubstr(board("b") + " was not heard"));
+  start_agent("b");
+  const auto is_taken = [](const Json& entry) {
+    return entry["action"] == "set valid keys" && entry["from"] == "another board";
+  };
+  ASSERT_TRUE(wait_until([&] {
+    const Json log = audit();
+    return std::any_of(log.begin(), log.end(), is_taken);
+  })) << "without another keys send";
+  ASSERT_TRUE(wait_until([&] { return deploy_with(path("keys/deployers/bob"), second()).code == 0; }));
+  stop_agent("a", SIGKILL);
+  EXPECT_NE(deploy_with(path("stolen"), first()).code, 0);
+  EXPECT_NE(indurop({"stop", "@" + board("b"), "--keys", path("stolen")}).code, 0);
+  // What was received outlives the agent.
+  stop_agent("b", SIGKILL);
+  start_agent("b");
+  ASSERT_TRUE(wait_until([&] { return report("b").is_object(); }));
+  EXPECT_NE(indurop({"stop", "@" + board("b"), "--keys", path("stolen")}).code, 0);
+}
+
+TEST_F(Trust, A_revoked_user_and_a_revoked_viewer_are_refused) {
+  ASSERT_EQ(
+      indurop_here({"users", "add", "anna", "--role", "program", "--no-password", "--file", path("users.xml")}).code,
+      0);
+  ASSERT_EQ(indurop({"users", "send", "--file", path("users.xml"), "--keys", path("keys")}).code, 0);
+  ASSERT_EQ(keys({"add", "--viewer", "eve"}).code, 0);
+  const auto as = [&](const std::string& whose, const std::vector<std::string>& words) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--keys", path(whose)});
+    return indurop(all);
+  };
+  EXPECT_EQ(as("keys/users/anna", {"restart", "@" + board("a")}).code, 0);
+  EXPECT_THAT(as("keys/viewers/eve", {"boards"}).out, HasSubstr(board("a")));
+  // They keep what they have.
+  std::filesystem::copy(path("keys/users/anna"), path("anna"), std::filesystem::copy_options::recursive);
+  std::filesystem::copy(path("keys/viewers/eve"), path("eve"), std::filesystem::copy_options::recursive);
+  ASSERT_EQ(keys({"revoke", "anna", "eve"}).code, 0);
+  ASSERT_EQ(send().code, 0);
+  EXPECT_TRUE(wait_until([&] { return as("anna", {"restart", "@" + board("a")}).code != 0; }));
+  EXPECT_TRUE(wait_until([&] { return as("eve", {"boards"}).out.find(board("a")) == std::string::npos; }))
+      << "agents that have joined the network again do not speak with her";
+  EXPECT_TRUE(wait_until([&] { return report("a").is_object(); })) << "the others are still heard";
+}
+
+}  // namespace
+}  // namespace indurop::test

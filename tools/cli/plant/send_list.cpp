@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/plant/send_list.h"
+
+#include <fmt/format.h>
+
+#include "core/base/exit_code.h"
+#include "tools/client/board/board_table.h"
+#include "tools/client/text/units.h"
+
+namespace indurop::tools {
+
+int send_list(Context& context, deploy::DeployLink& link, std::uint64_t self, BoardCommander& commander,
+              const BoardRoster& roster, const std::string& plant, bool idle, const SentList& list) {
+  int code = kOk;
+  for (const auto& [key, entry] : roster.all()) {
+    const bool belongs = entry.report.plant == plant || (idle && entry.report.plant.empty());
+    if (!belongs) {
+      continue;
+    }
+    const auto answered = commander.send(link, self, entry.report, list.action, list.text, kSendNs);
+    if (answered && answered->reply.outcome == deploy::Outcome::Done) {
+      context.out.line(fmt::format("{} {}", key.first, list.taken));
+    } else if (answered && answered->reply.outcome == deploy::Outcome::Unchanged) {
+      context.out.line(fmt::format("{} {}", key.first, list.unchanged));
+    } else {
+      context.out.error(fmt::format("{} was not changed: {}", key.first,
+                                    printable(answered ? answered->reply.text : answered.error().text)));
+      code = answered ? kFailed : answered.error().code;
+    }
+  }
+  for (const std::string& board : missing_boards(roster)) {
+    context.out.error(fmt::format(
+        "{} was not heard: it keeps the list it has until it is there, and then takes this one from another board",
+        board));
+    code = kUnreachable;
+  }
+  return code;
+}
+
+}  // namespace indurop::tools
