@@ -16,6 +16,7 @@
 
 #include "deploy/agent/board_users.h"
 #include "deploy/agent/deploy_keys.h"
+#include "tests/support/damaged_text.h"
 
 namespace indurop::deploy {
 namespace {
@@ -37,27 +38,13 @@ TEST(UserList, Text_and_back) {
   }
 }
 
-void flip(char& one, unsigned bit) {
-  one = static_cast<char>(static_cast<unsigned char>(one) ^ (1U << bit));
-}
-
 // Whatever is read from a damaged text is either nothing, or its signed text is another one, or it is undamaged but for
 // the signature.
 TEST(UserList, Damage_is_no_list_or_another_signed_text_or_signature) {
   const std::string whole = text_of(sample());
   std::mt19937 random(1);
   for (int i = 0; i < 20'000; ++i) {
-    std::string damaged = whole;
-    switch (random() % 3) {
-      case 0:
-        damaged.resize(random() % whole.size());
-        break;
-      case 1:
-        flip(damaged[random() % whole.size()], random() % 8);
-        break;
-      default:
-        damaged.insert(random() % whole.size(), 1, static_cast<char>(random() % 256));
-    }
+    const std::string damaged = test::damaged(whole, random);
     if (const auto sut = read_user_list(damaged)) {
       EXPECT_TRUE(signed_text(*sut) != signed_text(sample()) || sut->signature != sample().signature ||
                   text_of(*sut) == whole)

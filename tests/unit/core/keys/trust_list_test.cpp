@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "tests/support/damaged_text.h"
 #include "tests/unit/core/keys/keys_fixture.h"
 
 namespace indurop::keys {
@@ -165,10 +166,6 @@ TEST_F(Trust, Of_another_authority_or_plant_is_not_taken) {
   EXPECT_FALSE(fs::exists(folder_ / "state-a"));
 }
 
-void flip(char& one, unsigned bit) {
-  one = static_cast<char>(static_cast<unsigned char>(one) ^ (1U << bit));
-}
-
 // A list that was changed on its way is not accepted with another content.
 TEST_F(Trust, With_any_byte_changed_is_none_or_the_same) {
   make();
@@ -176,17 +173,7 @@ TEST_F(Trust, With_any_byte_changed_is_none_or_the_same) {
   const TrustList original = read();
   std::mt19937 random(1);
   for (int i = 0; i < 2'000; ++i) {
-    std::string damaged = whole;
-    switch (random() % 3) {
-      case 0:
-        damaged.resize(random() % whole.size());
-        break;
-      case 1:
-        flip(damaged[random() % whole.size()], random() % 8);
-        break;
-      default:
-        damaged.insert(random() % whole.size(), 1, static_cast<char>(random() % 256));
-    }
+    const std::string damaged = test::damaged(whole, random);
     if (const auto read = read_trust_list(damaged, authority())) {
       EXPECT_EQ(read->plant, original.plant);
       EXPECT_EQ(read->serial, original.serial);
