@@ -41,7 +41,11 @@ class Refusal : public testing::TestWithParam<const char*> {
   bool past_singular(MoveCommand& command, Joints& from) {
     const Joints middle = nearly_singular();
     const Pose there = arm.forward(middle);
-    const Vec3 along = Vec3(in(-1, 1), in(-1, 1), in(-1, 1)).normalized();
+    Vec3 along;
+    for (const int axis : {2, 1, 0}) {  // as arguments, their order would depend on the compiler
+      along[axis] = in(-1, 1);
+    }
+    along.normalize();
     const double half = decades(0.01, 0.4);
     const auto start = inverse.nearest({there.position - half * along, there.orientation}, middle);
     if (start.reach != Reach::Ok) {
