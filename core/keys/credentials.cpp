@@ -18,60 +18,10 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/keys/openssl_objects.h"
+
 namespace indurop::keys {
 namespace {
-
-template <auto Free>
-struct Freer {
-  template <class T>
-  void operator()(T* object) const {
-    Free(object);
-  }
-};
-using Bio = std::unique_ptr<BIO, Freer<&::BIO_free_all>>;
-using Key = std::unique_ptr<EVP_PKEY, Freer<&::EVP_PKEY_free>>;
-using Cert = std::unique_ptr<X509, Freer<&::X509_free>>;
-using Crl = std::unique_ptr<X509_CRL, Freer<&::X509_CRL_free>>;
-using Pkcs7 = std::unique_ptr<PKCS7, Freer<&::PKCS7_free>>;
-using Extension = std::unique_ptr<X509_EXTENSION, Freer<&::X509_EXTENSION_free>>;
-using Serial = std::unique_ptr<ASN1_INTEGER, Freer<&::ASN1_INTEGER_free>>;
-using Number = std::unique_ptr<BIGNUM, Freer<&::BN_free>>;
-using Time = std::unique_ptr<ASN1_TIME, Freer<&::ASN1_TIME_free>>;
-using Revoked = std::unique_ptr<X509_REVOKED, Freer<&::X509_REVOKED_free>>;
-using Context = std::unique_ptr<EVP_MD_CTX, Freer<&::EVP_MD_CTX_free>>;
-
-Bio reading(const std::string& text) {
-  return Bio(::BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
-}
-
-Bio writing() {
-  return Bio(::BIO_new(::BIO_s_mem()));
-}
-
-std::string content(const Bio& bio) {
-  const char* data = nullptr;
-  const long size = ::BIO_ctrl(bio.get(), BIO_CTRL_INFO, 0, static_cast<void*>(&data));
-  return size > 0 ? std::string(data, static_cast<std::size_t>(size)) : std::string{};
-}
-
-// Prevents a password prompt at the terminal for a key with a password.
-int no_password(char* /*into*/, int /*size*/, int /*writing*/, void* /*context*/) {
-  return -1;
-}
-
-Key read_key(const std::string& pem) {
-  return Key(::PEM_read_bio_PrivateKey(reading(pem).get(), nullptr, &no_password, nullptr));
-}
-Cert read_cert(const std::string& pem) {
-  return Cert(::PEM_read_bio_X509(reading(pem).get(), nullptr, &no_password, nullptr));
-}
-Crl read_crl(const std::string& pem) {
-  return Crl(::PEM_read_bio_X509_CRL(reading(pem).get(), nullptr, &no_password, nullptr));
-}
-
-Time to_time(Instant instant) {
-  return Time(::ASN1_TIME_set(nullptr, std::chrono::system_clock::to_time_t(instant)));
-}
 
 Instant to_instant(const ASN1_TIME* time) {
   std::tm parts{};
@@ -136,40 +86,6 @@ std::string hex(const unsigned char* bytes, std::size_t size) {
     text += fmt::format("{:02x}", bytes[i]);
   }
   return text;
-}
-
-bool add_revoked(X509_CRL* list, const std::string& serial, const ASN1_TIME* when) {
-  BIGNUM* raw = nullptr;
-  const bool is_number = ::BN_hex2bn(&raw, serial.c_str()) > 0;
-  const Number number(raw);
-  const Serial value(is_number ? ::BN_to_ASN1_INTEGER(number.get(), nullptr) : nullptr);
-  Revoked entry(::X509_REVOKED_new());
-  if (value == nullptr || entry == nullptr || ::X509_REVOKED_set_serialNumber(entry.get(), value.get()) != 1 ||
-      ::X509_REVOKED_set_revocationDate(entry.get(), const_cast<ASN1_TIME*>(when)) != 1 ||  // NOLINT: only copied
-      ::X509_CRL_add0_revoked(list, entry.get()) != 1) {
-    return false;
-  }
-  (void)entry.release();
-  return true;
-}
-
-bool copy_revoked(X509_CRL* into, const std::string& before) {
-  if (before.empty()) {
-    return true;
-  }
-  const Crl old = read_crl(before);
-  if (old == nullptr) {
-    return false;
-  }
-  const STACK_OF(X509_REVOKED)* all = ::X509_CRL_get_REVOKED(old.get());
-  for (int i = 0; i < sk_X509_REVOKED_num(all); ++i) {
-    Revoked copy(::X509_REVOKED_dup(sk_X509_REVOKED_value(all, i)));
-    if (copy == nullptr || ::X509_CRL_add0_revoked(into, copy.get()) != 1) {
-      return false;
-    }
-    (void)copy.release();
-  }
-  return true;
 }
 
 // `names`: value of the extension subjectAltName; empty: the certificate has none.
@@ -251,26 +167,6 @@ std::string make_opcua_certificate(const Authority& authority, const std::string
                "critical,digitalSignature,nonRepudiation,keyEncipherment,dataEncipherment");
 }
 
-std::string make_revocation_list(const Authority& authority, const std::string& before,
-                                 const std::vector<std::string>& serials, const Validity& validity) {
-  constexpr long kVersion2 = 1;
-  const Key signing = read_key(authority.key);
-  const Cert issuer = read_cert(authority.certificate);
-  const Crl made(::X509_CRL_new());
-  const Time from = to_time(validity.from);
-  const Time until = to_time(validity.until);
-  const bool ok = signing != nullptr && issuer != nullptr && made != nullptr && from != nullptr && until != nullptr &&
-                  ::X509_CRL_set_version(made.get(), kVersion2) == 1 &&
-                  ::X509_CRL_set_issuer_name(made.get(), ::X509_get_subject_name(issuer.get())) == 1 &&
-                  ::X509_CRL_set1_lastUpdate(made.get(), from.get()) == 1 &&
-                  ::X509_CRL_set1_nextUpdate(made.get(), until.get()) == 1 && copy_revoked(made.get(), before) &&
-                  std::all_of(serials.begin(), serials.end(),
-                              [&](const std::string& serial) { return add_revoked(made.get(), serial, from.get()); }) &&
-                  ::X509_CRL_sort(made.get()) == 1 && ::X509_CRL_sign(made.get(), signing.get(), ::EVP_sha256()) != 0;
-  const Bio out = writing();
-  return ok && ::PEM_write_bio_X509_CRL(out.get(), made.get()) == 1 ? content(out) : std::string{};
-}
-
 std::string sign_document(const Authority& authority, const std::string& text) {
   constexpr int kFlags = PKCS7_DETACHED | PKCS7_TEXT;
   const Key signing = read_key(authority.key);
@@ -323,19 +219,6 @@ bool belongs_to(const std::string& certificate, const std::string& key) {
   const Cert read = read_cert(certificate);
   const Key own = read_key(key);
   return read != nullptr && own != nullptr && ::X509_check_private_key(read.get(), own.get()) == 1;
-}
-
-bool is_revoked(const std::string& certificate, const std::string& revocation_list) {
-  const Cert read = read_cert(certificate);
-  const Crl list = read_crl(revocation_list);
-  X509_REVOKED* found = nullptr;
-  return read != nullptr && list != nullptr && ::X509_CRL_get0_by_cert(list.get(), &found, read.get()) == 1;
-}
-
-bool revocation_list_of(const std::string& revocation_list, const std::string& authority) {
-  const Crl list = read_crl(revocation_list);
-  const Cert issuer = read_cert(authority);
-  return list != nullptr && issuer != nullptr && ::X509_CRL_verify(list.get(), ::X509_get0_pubkey(issuer.get())) == 1;
 }
 
 std::string signed_text(const std::string& document, const std::string& authority) {

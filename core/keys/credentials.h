@@ -60,10 +60,6 @@ std::string make_server_certificate(const Authority& authority, const std::strin
 // URI, "URI:urn:indurop:opcua:cell.local", too.
 std::string make_opcua_certificate(const Authority& authority, const std::string& key, const Identity& identity,
                                    const std::string& names, const Validity& validity);
-// Makes a list that revokes certificates with these serial numbers, in addition to those of `before`, which may be
-// empty.
-std::string make_revocation_list(const Authority& authority, const std::string& before,
-                                 const std::vector<std::string>& serials, const Validity& validity);
 // Returns S/MIME with the text readable in it, as DDS Security requires.
 std::string sign_document(const Authority& authority, const std::string& text);
 
@@ -76,9 +72,6 @@ bool issued_by(const std::string& certificate, const std::string& authority);
 // Returns the public key of a certificate as PEM.
 std::string public_key_in(const std::string& certificate);
 bool belongs_to(const std::string& certificate, const std::string& key);
-bool is_revoked(const std::string& certificate, const std::string& revocation_list);
-// Returns true if it is a revocation list that this authority signed.
-bool revocation_list_of(const std::string& revocation_list, const std::string& authority);
 // Returns the text of a document made by sign_document(); empty if this authority did not sign exactly this document.
 std::string signed_text(const std::string& document, const std::string& authority);
 

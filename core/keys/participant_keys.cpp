@@ -13,6 +13,7 @@
 
 #include "core/base/text.h"
 #include "core/keys/plant_parts.h"
+#include "core/keys/revocation.h"
 
 namespace indurop::keys {
 namespace {

@@ -10,6 +10,7 @@
 #include "core/base/read_file.h"
 #include "core/keys/deploy_list.h"
 #include "core/keys/plant_parts.h"
+#include "core/keys/revocation.h"
 #include "core/keys/trust_list.h"
 
 namespace indurop::keys {
@@ -64,7 +65,8 @@ Done PlantKeys::add(const Holder& holder, Instant until) const {
     return base::Problem{fmt::format("{} has keys already, in {}; a new certificate for them: indurop keys renew {}",
                                      holder.name, same->folder.string(), holder.name)};
   }
-  if (Done able = can_issue(folder_); !able) {
+  const Done able = in_turn([&] { return can_issue(folder_); }, [&] { return restore_revoked(); });
+  if (!able) {
     return able;
   }
   const fs::path folder = folder_ / folder_of(holder.role, holder.name);
@@ -92,46 +94,51 @@ Done PlantKeys::add_user(const std::string& name, Instant until) const {
 }
 
 Done PlantKeys::rotate(const KeyListing& deployer) const {
-  std::error_code error;
-  const fs::path before = deployer.folder / kDeployKeyBefore;
-  if (fs::exists(before, error)) {
-    return base::Problem{
-        fmt::format("{} already has a new key, and the old one is still valid: when all boards have deploy.pub, "
-                    "indurop keys rotate "
-                    "--finish",
-                    deployer.name)};
-  }
   if (Done able = can_issue(folder_); !able) {
     return able;
   }
-  const std::string key = make_key(KeyKind::Ed25519);
-  const std::string list = with_deploy_key(folder_, deployer.name, key);
-  if (key.empty() || list.empty()) {
-    return crypto_failed();
-  }
-  fs::rename(deployer.folder / kDeployKey, before, error);
-  if (error) {
+  const fs::path key = deployer.folder / kDeployKey;
+  const fs::path before = deployer.folder / kDeployKeyBefore;
+  const fs::path next = deployer.folder / kDeployKeyNext;
+  const bool begun = !read_text(next).empty();
+  if (is_valid(before) && !begun) {
     return base::Problem{
-        fmt::format("cannot move {} away: {}", (deployer.folder / kDeployKey).string(), error.message())};
+        fmt::format("{} already has a new key, and the old one is still valid: when all boards know the new one "
+                    "(indurop keys send), "
+                    "indurop keys rotate --finish",
+                    deployer.name)};
   }
-  return in_turn([&] { return write_new(deployer.folder / kDeployKey, key, kSecret); },
-                 [&] { return share_deploy_keys(list); });
+  // A kill between two steps leaves valid keys, and the command can be repeated.
+  return in_turn(
+      [&] { return begun ? Done{} : write_new(next, make_key(KeyKind::Ed25519), kSecret); },
+      [&] {
+        return is_valid(next) ? Done{} : share(kDeployPublic, with_deploy_key(folder_, deployer.name, read_text(next)));
+      },
+      [&] { return read_text(key).empty() ? Done{} : move(key, before); }, [&] { return move(next, key); },
+      [&] { return share_trust(); });
+}
+
+bool PlantKeys::is_valid(const fs::path& deploy_key) const {
+  const std::string half = public_half(read_text(deploy_key));
+  const std::vector<DeployKey> list = read_deploy_list(read_text(folder_ / kDeployPublic));
+  return !half.empty() &&
+         std::any_of(list.begin(), list.end(), [&](const DeployKey& each) { return each.pem == half; });
 }
 
 Result<std::size_t, base::Problem> PlantKeys::finish_rotation() const {
   std::vector<DeployKey> list = read_deploy_list(read_text(folder_ / kDeployPublic));
   const std::size_t ended = std::erase_if(list, [](const DeployKey& key) { return key.former; });
-  if (ended == 0) {
-    return ended;
-  }
-  const Done done =
-      in_turn([&] { return can_issue(folder_); }, [&] { return share_deploy_keys(deploy_list_text(list)); });
+  const Done done = ended == 0 ? Done{}
+                               : in_turn([&] { return can_issue(folder_); },
+                                         [&] { return share_deploy_keys(deploy_list_text(list)); });
   if (!done) {
     return done.error();
   }
   std::error_code error;
   for (const KeyListing& each : this->list(instant_now())) {
-    fs::remove(each.folder / kDeployKeyBefore, error);
+    if (const fs::path before = each.folder / kDeployKeyBefore; !is_valid(before)) {
+      fs::remove(before, error);
+    }
   }
   return ended;
 }
@@ -140,7 +147,46 @@ Done PlantKeys::share_deploy_keys(const std::string& list) const {
   return in_turn([&] { return share(kDeployPublic, list); }, [&] { return share_trust(); });
 }
 
+Done PlantKeys::restore_revoked() const {
+  const std::string authority = read_text(folder_ / kAuthority);
+  const std::string revoked = read_text(folder_ / kRevoked);
+  const bool valid = revocation_list_of(revoked, authority);
+  const auto list = read_trust_list(read_text(folder_ / kTrust), authority);
+  if (valid && (!list || revokes_all_of(revoked, list->revoked))) {
+    return {};
+  }
+  if (list && (!valid || revokes_all_of(list->revoked, revoked))) {
+    return share(kRevoked, list->revoked);
+  }
+  return base::Problem{fmt::format("{} is {}; take it from the folder of a participant, or from a backup",
+                                   (folder_ / kRevoked).string(),
+                                   valid ? "another list of revoked certificates than that in trust.p7s"
+                                         : "no list of revoked certificates of this authority")};
+}
+
+// Keys of revoked deployers come back with a deploy.pub from a backup.
+Done PlantKeys::check_deploy_keys() const {
+  std::vector<DeployKey> keys = read_deploy_list(read_text(folder_ / kDeployPublic));
+  std::size_t ended = 0;
+  for (const KeyListing& each : list(instant_now())) {
+    const bool deploys = each.role == Role::Deployer;
+    if (deploys && each.revoked) {
+      ended += std::erase_if(keys, [&](const DeployKey& key) { return key.deployer == each.name; });
+    } else if (deploys && !read_text(each.folder / kDeployKey).empty() && !is_valid(each.folder / kDeployKey)) {
+      return base::Problem{
+          fmt::format("{} lacks the key of {}; take it from the folder of a participant, or from a "
+                      "backup",
+                      (folder_ / kDeployPublic).string(), each.name)};
+    }
+  }
+  return ended == 0 ? Done{} : share(kDeployPublic, deploy_list_text(keys));
+}
+
 Done PlantKeys::share_trust() const {
+  const Done usable = in_turn([&] { return restore_revoked(); }, [&] { return check_deploy_keys(); });
+  if (!usable) {
+    return usable;
+  }
   const Authority authority = read_authority(folder_);
   const auto before = read_trust_list(read_text(folder_ / kTrust), authority.certificate);
   const auto now = static_cast<std::uint64_t>(std::max<std::int64_t>(instant_now().time_since_epoch().count(), 1));
@@ -204,7 +250,8 @@ Done PlantKeys::renew(const KeyListing& whose, Instant until) const {
 }
 
 Done PlantKeys::revoke(const KeyListing& whose) const {
-  if (Done able = can_issue(folder_); !able) {
+  const Done able = in_turn([&] { return can_issue(folder_); }, [&] { return restore_revoked(); });
+  if (!able) {
     return able;
   }
   const Authority authority = read_authority(folder_);

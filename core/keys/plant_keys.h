@@ -87,6 +87,12 @@ class PlantKeys {
  private:
   Result<void, base::Problem> add(const Holder& holder, Instant until) const;
   Result<void, base::Problem> share_deploy_keys(const std::string& list) const;
+  // Restores revoked.pem from the signed list, if it is damaged or that of a backup: a certificate that was revoked
+  // once stays revoked (RFC 5280, 5.3.1).
+  [[nodiscard]] Result<void, base::Problem> restore_revoked() const;
+  [[nodiscard]] Result<void, base::Problem> check_deploy_keys() const;
+  // Returns true if deploy.pub has the public half of this private key.
+  [[nodiscard]] bool is_valid(const std::filesystem::path& deploy_key) const;
   // Signs a list of what the files in the folder say.
   Result<void, base::Problem> share_trust() const;
   // Copies a file that all participants have to all folders.

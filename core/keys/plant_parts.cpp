@@ -11,6 +11,7 @@
 #include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 #include "core/keys/deploy_list.h"
+#include "core/keys/revocation.h"
 
 namespace indurop::keys {
 
@@ -63,6 +64,13 @@ Done replace(const fs::path& file, const std::string& text) {
   }
   const auto written = base::replace_file(file, text, base::Durable::Yes, kPublic);
   return written ? Done{} : base::Problem{base::cannot_write(file, written.error())};
+}
+
+Done move(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  return error ? base::Problem{fmt::format("cannot move {} to {}: {}", from.string(), to.string(), error.message())}
+               : Done{};
 }
 
 Done make_folder(const fs::path& folder) {
@@ -228,7 +236,7 @@ KeyListing listing_of(Role role, const fs::path& folder, const std::string& auth
                       Instant now) {
   KeyListing listing{role, folder.filename().string(), folder, {}, false, {}, {}, {}};
   const ParticipantKeys keys(folder);
-  for (const fs::path& key : {keys.key, folder / kDeployKey, folder / kDeployKeyBefore}) {
+  for (const fs::path& key : {keys.key, folder / kDeployKey, folder / kDeployKeyBefore, folder / kDeployKeyNext}) {
     listing.exposed = listing.exposed.empty() ? exposed_key(key) : listing.exposed;
   }
   if (const auto read = base::read_file(keys.certificate); !read) {

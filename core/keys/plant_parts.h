@@ -23,6 +23,7 @@ inline constexpr const char* kTrust = "trust.p7s";
 inline constexpr const char* kIssued = "issued.txt";
 inline constexpr const char* kDeployKey = "deploy.key";
 inline constexpr const char* kDeployKeyBefore = "deploy.key.before";  // until the change to a new one is finished
+inline constexpr const char* kDeployKeyNext = "deploy.key.next";      // until it is in deploy.pub
 inline constexpr const char* kDeployPublic = "deploy.pub";
 inline constexpr const char* kIdentityKey = "identity.key";
 inline constexpr const char* kIdentity = "identity.pem";
@@ -47,6 +48,8 @@ base::Problem crypto_failed();
 Done write_new(const std::filesystem::path& file, const std::string& text, mode_t mode);
 // Writes a file or replaces an existing one atomically. Never used for private keys.
 Done replace(const std::filesystem::path& file, const std::string& text);
+// Renames a file, and replaces an existing one.
+Done move(const std::filesystem::path& from, const std::filesystem::path& to);
 Done make_folder(const std::filesystem::path& folder);
 // Returns a path next to `folder`, where a folder is made before it is moved into place, or moved to before it is
 // deleted.

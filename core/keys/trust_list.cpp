@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <string_view>
 #include <utility>
 
+#include "core/base/read_file.h"
 #include "core/base/replace_file.h"
 #include "core/base/text.h"
 #include "core/keys/plant_parts.h"
+#include "core/keys/revocation.h"
 
 namespace indurop::keys {
 
@@ -18,6 +21,7 @@ using base::Problem;
 namespace {
 
 constexpr std::string_view kMark = "indurop trust list\n";
+constexpr std::size_t kLargest = 1U << 20U;  // bytes: some thousand revoked certificates
 
 }  // namespace
 
@@ -64,18 +68,35 @@ fs::path ReceivedTrust::revoked() const {
 BoardTrust ReceivedTrust::current() const {
   const std::string authority = read_text(own_.authority);
   std::string brought = read_text(own_.folder / kTrust);
-  std::string received = read_text(file());
+  auto received = base::read_file(file());
   const auto before = read_trust_list(brought, authority);
-  auto later = read_trust_list(received, authority);
+  auto later = received ? read_trust_list(*received, authority) : std::nullopt;
   if (later && (!before || before->serial < later->serial)) {
-    return {later->serial, std::move(received), revoked(), std::move(later->deploy_keys)};
+    if (read_text(revoked()) != later->revoked) {
+      // Where this fails, DDS Security rejects the file, and the board stays out of the network.
+      (void)base::replace_file(revoked(), later->revoked, base::Durable::Yes, kPublic);
+    }
+    return {later->serial, std::move(*received), revoked(), std::move(later->deploy_keys), {}};
   }
-  return {before ? before->serial : 0, before ? std::move(brought) : std::string(), own_.revoked,
-          read_text(own_.deploy_key)};
+  BoardTrust trust{before ? before->serial : 0,
+                   before ? std::move(brought) : std::string(),
+                   own_.revoked,
+                   read_text(own_.deploy_key),
+                   {}};
+  if (!later && (received || received.error().sys_errno != ENOENT)) {
+    trust.problem = fmt::format(
+        "{}: the list of valid keys that this board had received is not valid{}; an earlier one "
+        "applies until another board or indurop keys send brings it again",
+        file().string(), received ? "" : " (" + received.error().text + ")");
+  }
+  return trust;
 }
 
 Result<TrustList, Problem> ReceivedTrust::later(const std::string& document) const {
   const std::string authority = read_text(own_.authority);
+  if (document.size() > kLargest) {
+    return Problem{"it is too large for a list of keys"};
+  }
   auto list = read_trust_list(document, authority);
   if (!list) {
     return Problem{"it is no list that the authority of this board's keys has signed"};
@@ -83,8 +104,15 @@ Result<TrustList, Problem> ReceivedTrust::later(const std::string& document) con
   if (const auto facts = read_certificate(authority); !facts || facts->organisation != list->plant) {
     return Problem{fmt::format("it is the list of plant {}", list->plant)};
   }
-  if (const std::uint64_t serial = current().serial; list->serial <= serial) {
-    return Problem{fmt::format("this board has list {} of the keys, and this one is {}", serial, list->serial)};
+  if (!revocation_list_of(list->revoked, authority)) {
+    return Problem{"it has no list of revoked certificates of this authority"};  // nothing could connect with it
+  }
+  const BoardTrust present = current();
+  if (list->serial <= present.serial) {
+    return Problem{fmt::format("this board has list {} of the keys, and this one is {}", present.serial, list->serial)};
+  }
+  if (!revokes_all_of(list->revoked, read_text(present.revoked))) {
+    return Problem{"it would make certificates valid again that are revoked"};
   }
   return *std::move(list);
 }

@@ -38,6 +38,7 @@ struct BoardTrust {
   std::string document;           // the list; empty with serial 0
   std::filesystem::path revoked;  // the file of revoked certificates
   std::string deploy_keys;        // text of the deploy.pub that is valid
+  std::string problem;            // a received list that cannot be read or is damaged; empty: none
 };
 
 // The list that a board has received, in a folder of its own. Not thread-safe with take() on the same folder. A kill
@@ -46,9 +47,11 @@ class ReceivedTrust {
  public:
   ReceivedTrust(ParticipantKeys own, std::filesystem::path folder);
 
+  // Also restores the file of revoked certificates from the list, if it was damaged.
   [[nodiscard]] BoardTrust current() const;
   // Returns the serial of a list that may replace what the board trusts. A problem: it is not signed by the authority
-  // in the board's folder of keys, is that of another plant, or is not later.
+  // in the board's folder of keys, is that of another plant, is not later, is too large, or would make a revoked
+  // certificate valid again.
   [[nodiscard]] Result<std::uint64_t, base::Problem> judge(const std::string& document) const;
   // Replaces the list by one that judge() accepts, durably.
   [[nodiscard]] Result<void, base::Problem> take(const std::string& document) const;

@@ -162,8 +162,10 @@ class Agent {
     for (const std::string& why : others_.listen(*net_.link(), state_.committed().plant)) {
       keep_box(why);
     }
+    // What is valid first: a deployment that was missed may be that of a deployer who was revoked meanwhile.
+    const bool knows = !net_.has_keys() || others_.know_lists(listed_plant());
     for (const auto& [key, other] : others_.all()) {
-      if (deployment_.lacks(other, damaged_) && !platform_.under_way() &&
+      if (knows && deployment_.lacks(other, damaged_) && !platform_.under_way() &&
           keys_.refusal(other.plant, grant_text(other.plant, other.current, other.generation), other.grant).empty()) {
         perform(transaction_.catch_up(other, now, Way::Exchange), now);
       }
@@ -178,6 +180,11 @@ class Agent {
         log_.warning("the black box cannot be kept: {}", requested.error().where);
       }
     }
+  }
+
+  // The plant whose lists this board takes; also before anything is deployed to it.
+  [[nodiscard]] const std::string& listed_plant() const {
+    return state_.committed().plant.empty() ? net_.plant() : state_.committed().plant;
   }
 
   void work(rt::MonoTime now) {
@@ -196,7 +203,7 @@ class Agent {
         perform(transaction_.fetched(fetcher_.problem()), now);
       }
     } else {
-      others_.step_lists(*net_.link(), state_.committed().plant, now);
+      others_.step_lists(*net_.link(), listed_plant(), now);
     }
     busy_ = server_.serve(*net_.link(), now);
     if (const auto problem = verify_.step()) {

@@ -163,7 +163,7 @@ CommandReply BoardCommands::refuse(const Command& command, const std::string& us
 CommandReply BoardCommands::take_trust(const Command& command, const std::string& plant, rt::MonoTime now) {
   const auto taken = take_trust_list(board_, keys_, plant, command.host, command.target);
   if (!taken) {
-    return refuse(command, "unknown", taken.error().text, now);
+    return refuse(command, "a participant with keys", taken.error().text, now);
   }
   if (taken->empty()) {
     return reply(command, Outcome::Unchanged);

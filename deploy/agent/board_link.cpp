@@ -59,7 +59,9 @@ std::string BoardLink::join() {
     }
     note = note.empty() ? check.exposed : note;
     keys::ParticipantKeys own(own_.folder);
-    own.revoked = keys_.trust(own_.plant).current().revoked;
+    const keys::BoardTrust trust = keys_.trust(own_.plant).current();
+    own.revoked = trust.revoked;
+    note = note.empty() ? trust.problem : note;
     settings_.network.security = security_of(own);
   }
   auto opened = DeployLink::open(settings_);

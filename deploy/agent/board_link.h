@@ -24,6 +24,9 @@ class BoardLink {
   // committed. Returns true if it has joined just now.
   bool keep(rt::MonoTime now, const std::string& plant, bool idle);
   void leave() noexcept;
+  [[nodiscard]] bool has_keys() const noexcept { return !own_.folder.empty(); }
+  // The plant whose keys this board has; empty: none.
+  [[nodiscard]] const std::string& plant() const noexcept { return own_.plant; }
   // Null while not connected; link(), platform() and commands() are either all null or all valid.
   [[nodiscard]] DeployLink* link() const noexcept { return link_.get(); }
   // The same boards, about the platform.

@@ -99,8 +99,10 @@ std::string DeployKeys::refusal(const std::string& plant, const std::string& tex
   if (signature.empty()) {
     return fmt::format("it is not signed, and this board has a key of plant {}", plant);
   }
-  return keys::signed_by_any(text, signature, key) ? std::string{}
-                                                   : fmt::format("it is not signed with the key of plant {}", plant);
+  return keys::signed_by_any(text, signature, key)
+             ? std::string{}
+             : fmt::format("it is not signed with the key of plant {} (keys send tells boards of new deployers)",
+                           plant);
 }
 
 }  // namespace indurop::deploy

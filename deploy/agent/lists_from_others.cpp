@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "deploy/agent/lists_from_others.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -22,6 +23,12 @@ void ListsFromOthers::step(DeployLink& link, const std::vector<std::uint64_t>& a
   if (source_ == 0 || now > until_) {
     ask_next(link, agents, plant, now);
   }
+}
+
+bool ListsFromOthers::has_asked(const std::vector<std::uint64_t>& agents) const {
+  return source_ == 0 && std::all_of(agents.begin(), agents.end(), [&](std::uint64_t agent) {
+           return asked_.contains({agent, lists_.size() - 1});
+         });
 }
 
 void ListsFromOthers::ask_next(DeployLink& link, const std::vector<std::uint64_t>& agents, const std::string& plant,

@@ -35,6 +35,8 @@ class ListsFromOthers {
   ListsFromOthers(std::uint64_t self, std::vector<PassedList> lists, const base::Log& log)
       : self_(self), lists_(std::move(lists)), log_(log) {}
 
+  // Returns true if each of the agents was asked for all lists in this round and has answered, or was silent.
+  [[nodiscard]] bool has_asked(const std::vector<std::uint64_t>& agents) const;
   // `agents`: of the other boards of `plant`, which this board runs.
   void step(DeployLink& link, const std::vector<std::uint64_t>& agents, const std::string& plant, rt::MonoTime now);
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/log.h"
+#include "core/rt/clock.h"
 #include "deploy/agent/board_deployment.h"
 #include "deploy/agent/deploy_keys.h"
 #include "deploy/transaction/board_transaction.h"
@@ -28,6 +29,9 @@ class OrderGate {
   [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
 
  private:
+  [[nodiscard]] std::string unsigned_by(const Order& order) const;
+  bool decides(const Order& order);
+
   const AgentState& state_;
   const DeployKeys& keys_;
   const BoardDeployment& deployment_;
@@ -35,6 +39,8 @@ class OrderGate {
   const base::Log& log_;
   std::uint64_t refused_ = 0;
   std::string reason_;
+  std::string keys_at_begin_;  // text of the deploy.pub that was valid when the deployment under way began
+  rt::MonoTime decides_until_;
 };
 
 }  // namespace indurop::deploy

@@ -38,6 +38,8 @@ class OtherBoards {
   // Takes newer lists of users and of valid keys from them. Receives the pieces of files that arrive: not while a
   // Fetcher is active.
   void step_lists(DeployLink& link, const std::string& plant, rt::MonoTime now);
+  // Returns true if all other boards of the plant were asked for these lists.
+  [[nodiscard]] bool know_lists(const std::string& plant) const { return lists_.has_asked(agents_of(plant)); }
   void clear() { boards_.clear(); }
 
  private:

@@ -24,15 +24,13 @@ Result<std::string, Problem> take_trust_list(const std::string& board, const Dep
   if (!serial) {
     return serial.error();
   }
-  if (const std::string unlogged = log_trust(board, own.plant, from, *serial, "begun"); !unlogged.empty()) {
-    return Problem{fmt::format("nothing was changed, because it cannot be logged in {}", unlogged)};
-  }
   const auto taken = trust.take(document);
-  (void)log_trust(board, own.plant, from, *serial, taken ? "done" : taken.error().text);  // its begin is noted
+  const std::string unlogged = log_trust(board, own.plant, from, *serial, taken ? "done" : taken.error().text);
   if (!taken) {
     return taken.error();
   }
-  return fmt::format("list {} of the keys of plant {} is valid now", *serial, own.plant);
+  return fmt::format("list {} of the keys of plant {} is valid now{}", *serial, own.plant,
+                     unlogged.empty() ? "" : "; it cannot be logged in " + unlogged);
 }
 
 std::string trust_id(const DeployKeys& keys, const std::string& plant) {

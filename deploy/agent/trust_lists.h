@@ -13,7 +13,8 @@
 namespace indurop::deploy {
 
 // Takes a list for the keys that the board has, logs it in the audit log, and stores it. `plant`: what it runs; `from`:
-// the host or board that brought the list. Nobody needs a right for this, since only the plant's authority can sign
+// the host or board that brought the list. It is also taken if it cannot be logged, as a stop is carried out: a full
+// disk must not keep keys valid. Nobody needs a right for this, since only the plant's authority can sign
 // lists. Returns what was done, for people; empty: the board has this list already. A problem: nothing was changed.
 Result<std::string, base::Problem> take_trust_list(const std::string& board, const DeployKeys& keys,
                                                    const std::string& plant, const std::string& from,

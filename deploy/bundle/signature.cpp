@@ -8,6 +8,7 @@
 #include "core/base/read_file.h"
 #include "core/keys/participant_keys.h"
 #include "core/keys/plant_keys.h"
+#include "core/keys/revocation.h"
 #include "deploy/bundle/bundle.h"
 
 namespace indurop::deploy {

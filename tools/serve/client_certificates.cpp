@@ -11,6 +11,7 @@
 #include "core/keys/credentials.h"
 #include "core/keys/participant_keys.h"
 #include "core/keys/plant_keys.h"
+#include "core/keys/revocation.h"
 
 namespace indurop::serve {
 

@@ -30,8 +30,8 @@ class Trust : public AgentsTest {
     return indurop_here(words);
   }
   Outcome send() { return indurop({"keys", "send", "--dir", path("keys"), "--keys", path("keys")}); }
-  Outcome deploy_with(const std::string& keys, const std::string& file) {
-    return indurop({"deploy", file, "--health", "500ms", "--timeout", "10s", "--keys", keys, "-o", "json"});
+  Outcome deploy_with(const std::string& keys, const std::string& file, const std::string& patience = "10s") {
+    return indurop({"deploy", file, "--health", "500ms", "--timeout", patience, "--keys", keys, "-o", "json"});
   }
   Json audit() {
     return indurop_here({"audit", "-o", "json", "--file", path("state/serve/audit.jsonl")}).json()["audit"];
@@ -47,7 +47,7 @@ class Trust : public AgentsTest {
 TEST_F(Trust, A_deployer_is_replaced_over_the_network) {
   ASSERT_EQ(keys({"add", "--deployer", "bob"}).code, 0);
   ASSERT_EQ(keys({"revoke", "deployer"}).code, 0);
-  EXPECT_NE(deploy_with(path("keys/deployers/bob"), second()).code, 0) << "the boards do not know bob yet";
+  EXPECT_NE(deploy_with(path("keys/deployers/bob"), second(), "2s").code, 0) << "the boards do not know bob yet";
   const Outcome sent = send();
   ASSERT_EQ(sent.code, 0) << sent.err;
   for (const char* name : {"a", "b"}) {
@@ -55,7 +55,7 @@ TEST_F(Trust, A_deployer_is_replaced_over_the_network) {
   }
   ASSERT_TRUE(wait_until([&] { return deploy_with(path("keys/deployers/bob"), second()).code == 0; }))
       << "agents join the network again after they got the list";
-  EXPECT_NE(deploy_with(path("stolen"), first()).code, 0);
+  EXPECT_NE(deploy_with(path("stolen"), first(), "2s").code, 0);
   EXPECT_NE(indurop({"stop", "@" + board("a"), "--keys", path("stolen")}).code, 0);
   const Outcome again = send();
   EXPECT_EQ(again.code, 0) << again.err;
@@ -64,6 +64,54 @@ TEST_F(Trust, A_deployer_is_replaced_over_the_network) {
   EXPECT_TRUE(std::any_of(log.begin(), log.end(), [](const Json& entry) {
     return entry["action"] == "set valid keys" && entry["outcome"] == "done";
   })) << log;
+}
+
+// Its deployer is revoked during the trial: he still decides it, so that no board keeps what another one rolls back.
+TEST_F(Trust, A_deployment_on_trial_ends_alike_on_all_boards) {
+  ASSERT_EQ(keys({"add", "--deployer", "bob"}).code, 0);
+  Program& running =
+      start_indurop({"deploy", second(), "--health", "8s", "--timeout", "20s", "--keys", path("stolen"), "-o", "json"});
+  const auto on_trial = [&](const char* name) {
+    const Json one = report(name);
+    return one.is_object() && (one["phase"] == "trial" || one["phase"] == "healthy");
+  };
+  ASSERT_TRUE(wait_until([&] { return on_trial("a") && on_trial("b"); }));
+  ASSERT_EQ(keys({"revoke", "deployer"}).code, 0);
+  EXPECT_EQ(send().code, 0);
+  const Outcome done = running.finish();
+  ASSERT_EQ(done.code, 0) << done.err;
+  const std::string deployment = done.json()["deployment"];
+  EXPECT_TRUE(wait_until([&] { return runs("a", deployment) && runs("b", deployment); }));
+  EXPECT_NE(deploy_with(path("stolen"), first(), "2s").code, 0) << "it was his last one";
+  EXPECT_EQ(deploy_with(path("keys/deployers/bob"), first()).code, 0);
+}
+
+// What it missed is a deployment of a user who is no deployer any longer.
+TEST_F(Trust, A_board_that_was_off_asks_for_valid_keys_before_it_takes_a_deployment) {
+  ASSERT_EQ(keys({"add", "--deployer", "bob"}).code, 0);
+  ASSERT_EQ(send().code, 0);
+  const std::string before = report("b")["deployment"];
+  stop_agent("b", SIGKILL);
+  ASSERT_TRUE(wait_until([&] {
+    return indurop({"deploy", second(), "--health", "500ms", "--timeout", "10s", "--allow-missing", "--keys",
+                    path("stolen"), "-o", "json"})
+               .code == 0;
+  }));
+  ASSERT_EQ(keys({"revoke", "deployer"}).code, 0);
+  EXPECT_EQ(send().code, 6);
+  start_agent("b");
+  const auto is_taken = [](const Json& entry) {
+    return entry["action"] == "set valid keys" && entry["from"] == "another board";
+  };
+  ASSERT_TRUE(wait_until([&] {
+    const Json log = audit();
+    return std::any_of(log.begin(), log.end(), is_taken);
+  }));
+  // Without the list, it would have begun by now.
+  ASSERT_TRUE(wait_until([&] { return report("b").is_object(); }));
+  const Json one = report("b");
+  EXPECT_EQ(one["phase"], "steady") << one;
+  EXPECT_EQ(one["deployment"], before) << one;
 }
 
 TEST_F(Trust, A_board_that_was_off_learns_from_another_one_who_is_revoked) {
@@ -83,7 +131,7 @@ TEST_F(Trust, A_board_that_was_off_learns_from_another_one_who_is_revoked) {
   })) << "without another keys send";
   ASSERT_TRUE(wait_until([&] { return deploy_with(path("keys/deployers/bob"), second()).code == 0; }));
   stop_agent("a", SIGKILL);
-  EXPECT_NE(deploy_with(path("stolen"), first()).code, 0);
+  EXPECT_NE(deploy_with(path("stolen"), first(), "2s").code, 0);
   EXPECT_NE(indurop({"stop", "@" + board("b"), "--keys", path("stolen")}).code, 0);
   // What was received outlives the agent.
   stop_agent("b", SIGKILL);

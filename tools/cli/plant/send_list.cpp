@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/exit_code.h"
 #include "tools/client/board/board_table.h"
 #include "tools/client/text/units.h"
@@ -10,10 +12,10 @@
 namespace indurop::tools {
 
 int send_list(Context& context, deploy::DeployLink& link, std::uint64_t self, BoardCommander& commander,
-              const BoardRoster& roster, const std::string& plant, bool idle, const SentList& list) {
+              const BoardRoster& roster, const Addressed& boards, const SentList& list) {
   int code = kOk;
   for (const auto& [key, entry] : roster.all()) {
-    const bool belongs = entry.report.plant == plant || (idle && entry.report.plant.empty());
+    const bool belongs = entry.report.plant == boards.plant || (boards.idle && entry.report.plant.empty());
     if (!belongs) {
       continue;
     }
@@ -29,6 +31,9 @@ int send_list(Context& context, deploy::DeployLink& link, std::uint64_t self, Bo
     }
   }
   for (const std::string& board : missing_boards(roster)) {
+    if (std::find(boards.revoked.begin(), boards.revoked.end(), board) != boards.revoked.end()) {
+      continue;
+    }
     context.out.error(fmt::format(
         "{} was not heard: it keeps the list it has until it is there, and then takes this one from another board",
         board));

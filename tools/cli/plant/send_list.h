@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "deploy/link/deploy_link.h"
 #include "deploy/words/command_words.h"
@@ -23,9 +24,15 @@ struct SentList {
   std::string unchanged;  // what it had before: "has this list already"
 };
 
-// Sends it to each board of the plant, and to boards with `idle` that run nothing. Names the boards that others know
-// and that were not discovered. Returns the exit code.
+// Which boards get it.
+struct Addressed {
+  std::string plant;
+  bool idle = false;                 // also boards that run nothing
+  std::vector<std::string> revoked;  // that nothing is expected from
+};
+
+// Sends it to the boards. Names those that others know and that were not discovered. Returns the exit code.
 int send_list(Context& context, deploy::DeployLink& link, std::uint64_t self, BoardCommander& commander,
-              const BoardRoster& roster, const std::string& plant, bool idle, const SentList& list);
+              const BoardRoster& roster, const Addressed& boards, const SentList& list);
 
 }  // namespace indurop::tools

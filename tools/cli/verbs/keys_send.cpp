@@ -2,12 +2,45 @@
 // indurop keys send: tells the boards of a plant which of its keys are valid.
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/keys/participant_keys.h"
 #include "deploy/link/link_keys.h"
 #include "tools/cli/plant/send_list.h"
 #include "tools/cli/verbs/keys_request.h"
 #include "tools/console/diagnostics.h"
 
 namespace indurop::tools {
+
+namespace {
+
+// With the keys of any participant: the list is signed, not the command.
+Result<void, base::Problem> choose_keys(deploy::LinkSettings& settings, const std::filesystem::path& folder) {
+  auto keys = keys::resolve_keys(folder, keys::Role::Deployer);
+  if (!keys) {
+    keys = keys::resolve_keys(folder, keys::Role::Viewer);
+  }
+  if (!keys) {
+    return keys.error();
+  }
+  settings.keys = keys->folder;
+  settings.network.security = deploy::security_of(*keys);
+  return {};
+}
+
+std::vector<std::string> revoked_boards(const keys::PlantKeys& keys) {
+  std::vector<std::string> names;
+  for (const keys::KeyListing& each : keys.list(keys::instant_now())) {
+    if (each.role == keys::Role::Board && each.revoked) {
+      names.push_back(each.name);
+    }
+  }
+  return names;
+}
+
+}  // namespace
 
 int send_keys(Context& context, const KeysRequest& request) {
   const keys::PlantKeys keys = keys_of(request);
@@ -21,15 +54,10 @@ int send_keys(Context& context, const KeysRequest& request) {
   }
   deploy::LinkSettings settings = request.link;
   if (settings.keys.empty()) {
-    settings.keys = keys.folder();
-    if (const auto used = deploy::use_keys(settings); !used) {
-      context.out.error(used.error().text);
+    if (const auto chosen = choose_keys(settings, keys.folder()); !chosen) {
+      context.out.error(chosen.error().text);
       return kFailed;
     }
-  }
-  auto commander = BoardCommander::make(context.out, settings.keys);
-  if (!commander) {
-    return report(context.out, commander.error());
   }
   const auto link = open_link(context.out, settings);
   if (link == nullptr) {
@@ -44,12 +72,16 @@ int send_keys(Context& context, const KeysRequest& request) {
                     keys.plant()));
     return kUnreachable;
   }
+  BoardCommander commander = BoardCommander::unsigned_commands();
   const int code = send_list(
-      context, *link, settings.self, *commander, roster, keys.plant(), true,
+      context, *link, settings.self, commander, roster, {keys.plant(), true, revoked_boards(keys)},
       {deploy::Action::SetTrust, *list, "knows now which keys are valid", "knew already which keys are valid"});
   context.out.note(
-      "commands and deployments are judged by this list from now on. A node checks its neighbours when it connects: "
-      "restart the nodes (indurop restart @BOARD) to disconnect a board or viewer that was revoked");
+      "a board that has the list rejects what others sign at once. A node checks its neighbours when it connects: "
+      "restart "
+      "the nodes (indurop restart @BOARD) to disconnect a board or viewer that was revoked, and to let in new keys of "
+      "a "
+      "board");
   return code;
 }
 

@@ -54,7 +54,7 @@ int send_users(Context& context, const std::vector<config::PlantUser>& users, Se
   }
   deploy::UserList list = next_list(*plant, users, *link, request.link.self, roster);
   list.signature = commander->signature_of(deploy::signed_text(list));
-  return send_list(context, *link, request.link.self, *commander, roster, *plant, false,
+  return send_list(context, *link, request.link.self, *commander, roster, {*plant, false, {}},
                    {deploy::Action::SetUsers, deploy::text_of(list),
                     fmt::format("has {} now", counted(users.size(), "user")), "has this list already"});
 }

@@ -29,6 +29,9 @@ class BoardCommander {
   // Signs with the key in this folder of the plant's keys; empty: unsigned, which boards without keys accept.
   static Result<BoardCommander, Failure> make(Messages& messages, const std::filesystem::path& keys);
 
+  // Signs nothing, for commands whose content is signed.
+  static BoardCommander unsigned_commands() { return BoardCommander({}); }
+
   // `self`: session of the link. `meanwhile` is called whenever something may have arrived, and at once again if it
   // returns true. Fails if no final answer comes in time, or the user interrupts.
   Result<Answered, Failure> send(deploy::DeployLink& link, std::uint64_t self, const deploy::BoardReport& board,

@@ -3,6 +3,7 @@
 
 #include <sys/stat.h>
 
+#include "core/keys/revocation.h"
 #include "tests/unit/core/keys/keys_fixture.h"
 
 namespace indurop::keys {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <random>
 
+#include "core/keys/revocation.h"
 #include "tests/support/damaged_text.h"
 #include "tests/unit/core/keys/keys_fixture.h"
 
@@ -73,10 +74,99 @@ TEST_F(Trust, Is_made_when_it_is_needed_and_does_not_match_the_other_files) {
   fs::remove(sut.folder() / "trust.p7s");
   EXPECT_EQ(read().revoked, text_of(sut.folder() / "revoked.pem"));
   fs::remove(sut.folder() / "trust.p7s");
+  fs::remove(sut.folder() / "revoked.pem");
+  EXPECT_THAT(sut.trust_list().error().text, HasSubstr("revoked.pem is no list of revoked certificates"));
+  fs::copy_file(sut.board("a") / "revoked.pem", sut.folder() / "revoked.pem");
   fs::rename(sut.folder() / "ca.key", folder_ / "stick");
   EXPECT_THAT(sut.trust_list().error().text, HasSubstr("ca.key"));
   EXPECT_THAT(sut.rotate(listed("deployer")).error().text, HasSubstr("ca.key")) << "before anything was changed";
   EXPECT_FALSE(fs::exists(sut.deployer() / "deploy.key.before"));
+}
+
+// RFC 5280, 5.3.1: what was revoked stays revoked. The files of a backup, or damaged ones, are copied to the folder.
+TEST_F(Trust, Does_not_make_revoked_keys_valid_again) {
+  make();
+  ASSERT_TRUE(sut.add_deployer("bob", now + days(10)));
+  fs::copy(sut.folder(), folder_ / "backup");
+  const KeyListing viewer = listed("viewer");
+  const KeyListing bob = listed("bob");
+  ASSERT_TRUE(sut.revoke(viewer));
+  ASSERT_TRUE(sut.revoke(bob));
+  const ReceivedTrust board = this->board("a");
+  const std::string key = text_of(bob.folder / "deploy.key");
+  const auto revoked = [&] {
+    const TrustList list = read();
+    return is_revoked(certificate(viewer), list.revoked) && is_revoked(certificate(bob), list.revoked) &&
+           !signed_by_any("order", signature_of("order", key), list.deploy_keys);
+  };
+  EXPECT_TRUE(revoked());
+  for (const char* file : {"revoked.pem", "deploy.pub"}) {
+    fs::copy_file(folder_ / "backup" / file, sut.folder() / file, fs::copy_options::overwrite_existing);
+    EXPECT_TRUE(revoked()) << file;
+  }
+  for (const char* damage : {"", "garbage", "-----BEGIN X509 CRL-----"}) {
+    std::ofstream(sut.folder() / "revoked.pem") << damage;
+    EXPECT_TRUE(revoked()) << damage;
+  }
+  fs::remove(sut.folder() / "revoked.pem");
+  ASSERT_TRUE(sut.add_viewer("eve", now + days(10)));
+  ASSERT_TRUE(sut.revoke(listed("eve")));
+  EXPECT_TRUE(revoked());
+  // A desk that has only the backup signs a later list: boards do not take it.
+  const PlantKeys stale(folder_ / "backup");
+  for (const KeyListing& each : stale.list(now)) {
+    if (each.role == Role::Viewer) {
+      ASSERT_TRUE(stale.revoke(each));
+      ASSERT_TRUE(stale.revoke(each));
+    }
+  }
+  const Authority own{authority(), text_of(sut.folder() / "ca.key")};
+  EXPECT_THAT(board.take(signed_trust_list({"cell", 1ULL << 40U, text_of(folder_ / "backup/revoked.pem"), ""}, own))
+                  .error()
+                  .text,
+              HasSubstr("valid again"));
+}
+
+TEST_F(Trust, Is_not_signed_without_the_keys_of_deployers_whom_the_folder_has) {
+  make();
+  for (const char* damage : {"", "garbage"}) {
+    std::ofstream(sut.folder() / "deploy.pub") << damage;
+    EXPECT_THAT(sut.trust_list().error().text, HasSubstr("deploy.pub lacks the key of deployer")) << damage;
+  }
+  fs::copy_file(sut.board("a") / "deploy.pub", sut.folder() / "deploy.pub", fs::copy_options::overwrite_existing);
+  EXPECT_TRUE(sut.trust_list());
+}
+
+// A kill at any step of a change of keys leaves a folder in which the command can be repeated.
+TEST_F(Trust, A_change_of_keys_that_was_killed_is_repeated) {
+  make();
+  const fs::path folder = sut.deployer();
+  const auto key = [&] { return text_of(folder / "deploy.key"); };
+  const auto valid = [&](const std::string& text) {
+    return signed_by_any("order", signature_of("order", text), read().deploy_keys);
+  };
+  const std::string first = key();
+  // Before the new key is known, after that, and between the two moves of files.
+  std::ofstream(folder / "deploy.key.next") << make_key(KeyKind::Ed25519);
+  ASSERT_TRUE(sut.rotate(listed("deployer")));
+  const std::string second = key();
+  EXPECT_TRUE(second != first && valid(second) && valid(first));
+  fs::rename(folder / "deploy.key", folder / "deploy.key.next");
+  EXPECT_TRUE(sut.rotate(listed("deployer")));
+  EXPECT_EQ(key(), second);
+  EXPECT_EQ(text_of(folder / "deploy.key.before"), first);
+  EXPECT_THAT(sut.rotate(listed("deployer")).error().text, HasSubstr("keys send"));
+  const std::string before = text_of(folder / "deploy.key.before");
+  ASSERT_EQ(*sut.finish_rotation(), 1U);
+  EXPECT_TRUE(valid(second) && !valid(first));
+  // --finish, after the key became invalid and before its file was deleted.
+  std::ofstream(folder / "deploy.key.before") << before;
+  EXPECT_EQ(*sut.finish_rotation(), 0U);
+  EXPECT_FALSE(fs::exists(folder / "deploy.key.before"));
+  std::ofstream(folder / "deploy.key.before") << before;
+  ASSERT_TRUE(sut.rotate(listed("deployer")));
+  EXPECT_TRUE(valid(key()) && valid(second) && key() != second);
+  EXPECT_EQ(text_of(folder / "deploy.key.before"), second);
 }
 
 TEST_F(Trust, Is_signed_as_OpenSSL_verifies_it) {
@@ -150,6 +240,29 @@ TEST_F(Trust, Of_an_earlier_release_is_what_its_files_say) {
   EXPECT_EQ(board.current().document, list());
 }
 
+TEST_F(Trust, Of_a_board_whose_files_were_damaged) {
+  make();
+  const ReceivedTrust board = this->board("a");
+  const std::string before = text_of(sut.folder() / "revoked.pem");
+  const KeyListing viewer = listed("viewer");
+  ASSERT_TRUE(sut.revoke(viewer));
+  ASSERT_TRUE(board.take(list()));
+  const fs::path revoked = board.current().revoked;
+  const std::string whole = text_of(revoked);
+  for (const std::string& damage : {std::string(), std::string("garbage"), before, whole.substr(0, 100)}) {
+    std::ofstream(revoked) << damage;
+    EXPECT_EQ(text_of(board.current().revoked), whole) << "restored from the signed list";
+  }
+  fs::remove(revoked);
+  EXPECT_EQ(text_of(board.current().revoked), whole);
+  EXPECT_EQ(board.current().problem, "");
+  std::ofstream(board.file()) << list().substr(0, 100);
+  EXPECT_THAT(board.current().problem, HasSubstr("trust.p7s: the list of valid keys that this board had received"));
+  ASSERT_TRUE(board.take(list())) << "from another board";
+  EXPECT_EQ(board.current().problem, "");
+  EXPECT_TRUE(board.revokes(certificate(viewer)));
+}
+
 TEST_F(Trust, Of_another_authority_or_plant_is_not_taken) {
   make();
   const ReceivedTrust board = this->board("a");
@@ -160,9 +273,13 @@ TEST_F(Trust, Of_another_authority_or_plant_is_not_taken) {
   EXPECT_THAT(board.take(text_of(sut.folder() / "governance.p7s")).error().text, HasSubstr("no list"))
       << "signed by the authority, but something else";
   EXPECT_THAT(board.take("").error().text, HasSubstr("no list"));
+  EXPECT_THAT(board.take(std::string(2U << 20U, 'x')).error().text, HasSubstr("too large"));
   const Authority own{authority(), text_of(sut.folder() / "ca.key")};
   EXPECT_THAT(board.take(signed_trust_list({"press", 1ULL << 40U, "", ""}, own)).error().text,
               HasSubstr("list of plant press"));
+  EXPECT_THAT(board.take(signed_trust_list({"cell", 1ULL << 40U, "", ""}, own)).error().text,
+              HasSubstr("no list of revoked certificates"))
+      << "with which no node could connect";
   EXPECT_FALSE(fs::exists(folder_ / "state-a"));
 }
 

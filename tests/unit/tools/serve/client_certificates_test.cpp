@@ -10,6 +10,7 @@
 
 #include "core/base/read_file.h"
 #include "core/keys/plant_keys.h"
+#include "core/keys/revocation.h"
 
 namespace indurop::serve {
 namespace {
