@@ -189,7 +189,8 @@ def test_a_module_that_is_stopped_is_an_alarm(setting):
     assert code() == 4
     one = wait_for(lambda: alarms().get("module conveyor"), "the alarm")
     assert (one["state"], one["priority"], one["text"]) == ("unacknowledged", "high", "module conveyor is stopped"), one
-    assert "1 alarm is active, 1 is not acknowledged" in summary()["trouble"]
+    # The list is written before its figures.
+    wait_for(lambda: "1 alarm is active, 1 is not acknowledged" in summary()["trouble"], "the alarm among the troubles")
     assert server.post(f"{base}/alarms/shelve", {"alarms": ["module conveyor"], "for_ns": 1}).status == 200
     wait_for(lambda: alarms().get("module conveyor", {}).get("count") == 2, "the alarm after it was shelved")
     assert server.post(f"{base}/modules/conveyor/start", {}).status == 200
