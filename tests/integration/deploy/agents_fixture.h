@@ -106,6 +106,10 @@ class AgentsTest : public PlantTest {
     }
     return done;
   }
+  // The audit log of this host.
+  Json audit() {
+    return indurop_here({"audit", "-o", "json", "--file", path("state/serve/audit.jsonl")}).json()["audit"];
+  }
   // What the board says of itself; null if it is not heard.
   Json report(const std::string& name, const std::vector<std::string>& before = {}) {
     const Json all = indurop({"boards", "-o", "json"}, before).json();

@@ -43,9 +43,6 @@ class RemoteUsers : public AgentsTest {
     words.insert(words.end(), {"--board", board("a"), "--keys", path("keys/users/" + user)});
     return indurop(words);
   }
-  Json audit() {
-    return indurop_here({"audit", "-o", "json", "--file", path("state/serve/audit.jsonl")}).json()["audit"];
-  }
 };
 
 TEST_F(RemoteUsers, Do_what_their_role_allows) {

@@ -15,19 +15,15 @@
 #include "core/keys/plant_keys.h"
 #include "deploy/agent/board_users.h"
 #include "store/operate/audit.h"
-#include "tests/unit/config/module_file.h"
+#include "tests/unit/core/keys/keys_fixture.h"
 
 namespace indurop::deploy {
 namespace {
 
 namespace fs = std::filesystem;
+using keys::text_of;
 using std::chrono::days;
 using testing::HasSubstr;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 // Boards of a plant with keys, each with its folder of keys and its state.
 class TrustLists : public testing::Test {
