@@ -9,6 +9,8 @@ namespace indurop::deploy {
 namespace {
 
 constexpr std::chrono::seconds kPatience{5};  // with one agent, however often it begins again
+// A request is lost when the agent does not know this one yet; then it is sent again.
+constexpr std::chrono::seconds kAnswer{1};
 constexpr std::chrono::seconds kRound{60};
 
 }  // namespace
@@ -17,11 +19,14 @@ void ListsFromOthers::step(DeployLink& link, const std::vector<std::uint64_t>& a
                            rt::MonoTime now) {
   for (const BlobChunk& chunk : link.take_chunks()) {
     if (chunk.source == source_ && chunk.blob == blob_) {
+      again_ = now + kAnswer;
       take(chunk, plant);
     }
   }
   if (source_ == 0 || now > until_) {
     ask_next(link, agents, plant, now);
+  } else if (now > again_) {
+    request(link, now);
   }
 }
 
@@ -55,6 +60,11 @@ void ListsFromOthers::ask(DeployLink& link, std::uint64_t agent, std::size_t lis
   until_ = now + kPatience;
   blob_ = lists_[list].blob + lists_[list].id(plant);
   text_ = TextPieces(kLargest);
+  request(link, now);
+}
+
+void ListsFromOthers::request(DeployLink& link, rt::MonoTime now) {
+  again_ = now + kAnswer;
   link.request({self_, source_, blob_, 0, kLargest, true});
 }
 

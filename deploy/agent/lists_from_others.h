@@ -45,6 +45,7 @@ class ListsFromOthers {
 
   void ask_next(DeployLink& link, const std::vector<std::uint64_t>& agents, const std::string& plant, rt::MonoTime now);
   void ask(DeployLink& link, std::uint64_t agent, std::size_t list, const std::string& plant, rt::MonoTime now);
+  void request(DeployLink& link, rt::MonoTime now);
   void take(const BlobChunk& chunk, const std::string& plant);
 
   std::uint64_t self_;
@@ -55,6 +56,7 @@ class ListsFromOthers {
   std::uint64_t source_ = 0;                               // the agent that is asked; 0: none
   std::size_t wanted_ = 0;                                 // for this list
   rt::MonoTime until_;                                     // until then its answer is waited for
+  rt::MonoTime again_;                                     // then the request is sent again, unless pieces arrive
   std::string blob_;
   TextPieces text_{kLargest};  // of its answer
   std::string last_problem_;   // logged once

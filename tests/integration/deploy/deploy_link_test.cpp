@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "agents_fixture.h"
+#include "core/base/log.h"
 #include "core/rt/clock.h"
+#include "deploy/agent/lists_from_others.h"
 
 namespace indurop::test {
 namespace {
@@ -60,6 +62,50 @@ TEST_F(DeployLinks, An_agent_stays_when_it_no_longer_sends_files_to_tools) {
     tools[0].link->wait(rt::MonoClock::now() + std::chrono::seconds(1));
     reports += reports_of(tools[0]);
   }
+}
+
+// An agent that does not know the board yet when it asks does not get its first request.
+TEST_F(DeployLinks, A_request_for_a_list_that_gets_no_answer_is_sent_again) {
+  const Tool board = open();
+  const Tool other = open();
+  std::string taken;
+  const deploy::PassedList list = {"a list", "list/", [](const std::string&) { return std::string("1"); },
+                                   [&taken](const std::string&, const std::string& text) {
+                                     taken = text;
+                                     return std::string("taken");
+                                   }};
+  const base::Log log("test", "board", true);
+  deploy::ListsFromOthers lists(board.self, {list}, log);
+  const auto is_asked_for = [&other](const std::string& blob) {
+    for (const deploy::BlobRequest& request : other.link->take_requests()) {
+      if (request.blob == blob) {
+        return true;
+      }
+    }
+    return false;
+  };
+  ASSERT_TRUE(wait_until([&] {
+    board.link->request({board.self, other.self, "none of this name", 0, 1});
+    return is_asked_for("none of this name");
+  }));
+  const std::vector<std::uint64_t> agents = {other.self};
+  const rt::MonoTime begin = rt::MonoClock::now();
+  lists.step(*board.link, agents, "plant", begin);
+  ASSERT_TRUE(wait_until([&] { return is_asked_for("list/1"); }));
+  EXPECT_FALSE(lists.has_asked(agents));
+  const rt::MonoTime later = begin + std::chrono::milliseconds(1001);
+  lists.step(*board.link, agents, "plant", later);
+  ASSERT_TRUE(wait_until([&] { return is_asked_for("list/1"); }));
+  const std::string text = "users";
+  ASSERT_TRUE(wait_until([&] {
+    return other.link->send(board.self, {other.self, "list/1", 0, false, {text.begin(), text.end()}}) ==
+           deploy::DeployLink::Sent::Yes;
+  }));
+  ASSERT_TRUE(wait_until([&] {
+    lists.step(*board.link, agents, "plant", later);
+    return taken == text;
+  }));
+  EXPECT_TRUE(lists.has_asked(agents));
 }
 
 }  // namespace
