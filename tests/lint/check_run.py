@@ -18,6 +18,13 @@ LAST_LINES = 40
 RESULT = re.compile(r"^\s*(?:\d+/\d+ )?Test\s+#\d+: (.*?) \.*\s*(?:\*\*\*)?(\w[\w ]*?)\s+[\d.]+ sec", re.MULTILINE)
 
 
+def last_lines(text):
+    """Of what a test printed. Of the frames of a Python traceback only the last one, so that the error is read first."""
+    lines = text.strip().splitlines()[-LAST_LINES:]
+    frames = [i for i, line in enumerate(lines) if line.startswith('  File "')]
+    return lines[:frames[0]] + lines[frames[-1]:] if frames else lines
+
+
 def skipped(junit):
     """Name and reason of each test that was skipped."""
     for case in xml.etree.ElementTree.parse(junit).iter("testcase"):
@@ -33,8 +40,7 @@ def failed(junit):
     for case in xml.etree.ElementTree.parse(junit).iter("testcase"):
         failure = case.find("failure")
         if failure is not None:
-            said = (case.findtext("system-out") or "").rstrip().splitlines()
-            yield case.get("name"), [failure.get("message") or "", *said[-LAST_LINES:]]
+            yield case.get("name"), [failure.get("message") or "", *last_lines(case.findtext("system-out") or "")]
 
 
 def results(log):
@@ -50,7 +56,7 @@ def first_failure(log, name):
     for found in RESULT.finditer(log):
         if found.group(1) == name and found.group(2) != "Passed":
             printed = re.split(r"^ *(?:Start +\d+:|(?:\d+/\d+ )?Test +#\d+:)", log[found.end():], maxsplit=1, flags=re.MULTILINE)[0]
-            return printed.strip().splitlines()[-LAST_LINES:]
+            return last_lines(printed)
     return []
 
 
