@@ -24,6 +24,11 @@ using testing::UnorderedElementsAre;
 class ProjectFiles : public testing::Test {
  protected:
   ProjectFiles() { put("CMakeLists.txt"), put("plant.xml"), put("src/tick.cpp"); }
+  void SetUp() override {
+    if (std::system("git --version >/dev/null 2>&1") != 0) {
+      GTEST_SKIP() << "git is not installed";
+    }
+  }
 
   void put(const std::string& file, const std::string& text = "text\n") const {
     const fs::path path = folder() / file;
