@@ -11,6 +11,7 @@ constexpr Clock kStateCheck = std::chrono::milliseconds(10);
 
 void OperationWatch::begin(Clock now) noexcept {
   is_suspect_ = false;
+  missed_state_ = false;
   check_at_ = now + kStateCheck;
   ports_.begin(now);
 }
@@ -54,7 +55,13 @@ OperationWatch::Verdict OperationWatch::answer(Bytes data, bool is_answered, Clo
       break;
   }
   check_at_ = now + kStateCheck;
-  is_suspect_ = false;
+  // A frame that is on its way while a cable of a ring is plugged in passes the slaves behind it at neither end. So one
+  // query without an answer does not tell yet that the slave is missing.
+  is_suspect_ = !is_answered && !missed_state_;
+  missed_state_ = is_suspect_;
+  if (is_suspect_) {
+    return {};
+  }
   if (!is_answered) {
     return {Problem::Missing, 0};
   }

@@ -47,6 +47,7 @@ class OperationWatch {
   PortWatch ports_;
   Asks asks_ = Asks::Mailbox;  // the query on its way
   bool is_suspect_ = false;
+  bool missed_state_ = false;  // the last query of the state was not answered
   Clock check_at_{0};
 };
 

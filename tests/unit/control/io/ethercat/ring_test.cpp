@@ -4,12 +4,51 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
 #include <random>
+#include <utility>
 
 #include "simulated_plant.h"
 
 namespace indurop::io::ethercat {
 namespace {
+
+bool has(Bytes frame, Command command, std::uint32_t address) {
+  FrameReader reader(frame);
+  Datagram datagram;
+  while (reader.next(datagram)) {
+    if (datagram.command == command && datagram.address == address) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// The first end of the cable. Calls a function once, after it has sent a frame with such a datagram and before the last
+// end does.
+class FirstEnd final : public Link {
+ public:
+  explicit FirstEnd(Link& link) : link_(link) {}
+  bool send(Bytes frame) noexcept override {
+    const bool sent = link_.send(frame);
+    if (after_ && has(frame, command_, address_)) {
+      std::exchange(after_, nullptr)();
+    }
+    return sent;
+  }
+  std::size_t receive(std::span<std::uint8_t> to) noexcept override { return link_.receive(to); }
+  void after(Command command, std::uint32_t address, std::function<void()> call) {
+    command_ = command;
+    address_ = address;
+    after_ = std::move(call);
+  }
+
+ private:
+  Link& link_;
+  Command command_ = Command::Nop;
+  std::uint32_t address_ = 0;
+  std::function<void()> after_;
+};
 
 class RingPlant {
  public:
@@ -23,7 +62,7 @@ class RingPlant {
         }
       });
     }
-    link_ = std::make_unique<RingLink>(bus_, bus_.make_ring());
+    link_ = std::make_unique<RingLink>(first_, bus_.make_ring());
     if (cut) {
       bus_.segment().set_cable(*cut, false);
     }
@@ -70,6 +109,7 @@ class RingPlant {
   }
 
   SimulatedBus& bus() { return bus_; }
+  FirstEnd& first() { return first_; }
   RingLink& link() { return *link_; }
   Master& master() { return *master_; }
   Slave& slave(std::size_t place) { return bus_.segment().slave(place); }
@@ -78,6 +118,7 @@ class RingPlant {
 
  private:
   SimulatedBus bus_;
+  FirstEnd first_{bus_};
   std::unique_ptr<RingLink> link_;
   std::unique_ptr<Master> master_;
   Clock now_{0};
@@ -112,6 +153,29 @@ TEST(Ring, A_cut_at_any_place_is_named_and_loses_no_tick_nor_does_its_end) {
       EXPECT_FALSE(sut.link().cut());
     }
     EXPECT_EQ(sut.master().counters().lost, 0U);
+  }
+}
+
+// A frame passes the slaves behind that cable at neither end: at the first one while it is cut, at the last one after
+// it.
+TEST(Ring, A_cable_that_is_plugged_in_while_a_frame_is_sent_stops_no_slave) {
+  constexpr std::size_t kSlaves = 4;
+  RingPlant sut(kSlaves);
+  ASSERT_TRUE(sut.starts()) << sut.story();
+  for (std::size_t place = 1; place < kSlaves; ++place) {
+    for (const bool in_query : {false, true}) {  // of the state; otherwise in process data
+      SCOPED_TRACE(testing::Message() << "place " << place << ", in a query " << in_query);
+      sut.bus().segment().set_cable(place, false);
+      EXPECT_EQ(sut.lost(20), 0U);
+      ASSERT_TRUE(sut.link().cut());
+      const std::string before = sut.story();
+      sut.first().after(in_query ? Command::Fprd : Command::Brd,
+                        address_of(in_query ? station_of(place) : 0, reg::kAlStatus),
+                        [&] { sut.bus().segment().set_cable(place, true); });
+      EXPECT_LE(sut.lost(30), 2 * (kSlaves - place)) << "of each, the outputs of one tick, and its inputs";
+      EXPECT_FALSE(sut.link().cut());
+      EXPECT_TRUE(io::ethercat::all_operate(sut.master())) << sut.story().substr(before.size());
+    }
   }
 }
 
